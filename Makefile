@@ -57,7 +57,7 @@ KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
   -mtune=skylake-avx512 $(if $(CLANG),,-fschedule-insns -fsched-pressure)
 KERNEL_avx2 := -mavx2 -mfma
 
-ALL_CPPFLAGS = -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
+ALL_CPPFLAGS = -Iinclude -Isrc -Isrc/engine -Isrc/files -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) $(MODE) $(FLOATING) -fPIC -fvisibility=hidden
 
 # Libraries by pkg-config where it knows them, by their usual names otherwise.
@@ -95,9 +95,9 @@ SHARED_LIBRARY = $(OUT)/$(call shared_name,)
 
 # ----------------------------------------------------------------- sources
 
-SOURCES := $(sort $(wildcard src/*/*.c))
+SOURCES := $(sort $(wildcard src/*/*.c src/*/*/*.c))
 ifeq ($(X86),)
-  SOURCES := $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
+  SOURCES := $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
@@ -130,7 +130,7 @@ help:
 	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
 	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
-	@echo 'make viewer       that page from its sources in src/page/viewer (npm)'
+	@echo 'make viewer       that page from its sources in src/show/viewer (npm)'
 	@echo 'make check-python tests of the Python package with all that is optional, in an environment of its own'
 	@echo 'make wheel        the Python package as build/wheel/ambulo-*.whl'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
@@ -173,19 +173,19 @@ define compile_kernel
 	@mkdir -p $(@D)
 	$(call compile,$(if $(filter release,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))))
 endef
-$(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
+$(OUT)/obj/src/engine/mechanics/kernels_%.o: src/engine/mechanics/kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
-$(OUT)/obj/src/linear/band_kernels_%.o: src/linear/band_kernels_%.c $(OUT)/obj/flags
+$(OUT)/obj/src/engine/linear/band_kernels_%.o: src/engine/linear/band_kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
 
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
 	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
 
-# the page of `ambulo report`, as an array of bytes (src/page/viewer.h); the zero behind it ends a text
-$(OUT)/obj/viewer.c: src/page/viewer.html Makefile
+# the page of `ambulo report`, as an array of bytes (src/show/viewer.h); the zero behind it ends a text
+$(OUT)/obj/viewer.c: src/show/viewer.html Makefile
 	@mkdir -p $(@D)
-	$(call quiet,GEN $@){ echo '#include "page/viewer.h"'; echo 'const unsigned char ambulo__viewer[] = {'; \
+	$(call quiet,GEN $@){ echo '#include "show/viewer.h"'; echo 'const unsigned char ambulo__viewer[] = {'; \
 	  od -An -v -t u1 $< | sed 's/[0-9][0-9]*/&,/g'; echo '0};'; \
 	  echo 'const size_t ambulo__viewer_size = sizeof ambulo__viewer - 1;'; } > $@
 $(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags
@@ -216,7 +216,7 @@ $(OUT)/bench/%: $(OUT)/obj/bench/%.o $(OUT)/libambulo.a
 	$(call quiet,LD $@)$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
 
 .SECONDARY:
--include $(wildcard $(OUT)/obj/*/*.d $(OUT)/obj/*/*/*.d)
+-include $(wildcard $(OUT)/obj/*/*.d $(OUT)/obj/*/*/*.d $(OUT)/obj/*/*/*/*.d)
 
 # --------------------------------------------------- set-up, demo and tests
 
@@ -247,11 +247,11 @@ run-tests:
 
 check-kill: build/.ready-build
 	$(submake) all
-	@AMBULO=$(OUT)/ambulo KILLS=200 SWEEP=models/sweep_walk.yaml tests/batch/kill_test.sh
+	@AMBULO=$(OUT)/ambulo KILLS=200 SWEEP=models/sweep_walk.yaml tests/study/kill_test.sh
 
 check-slurm: build/.ready-build
 	$(submake) all
-	@AMBULO=$(OUT)/ambulo tests/batch/cluster_test.sh
+	@AMBULO=$(OUT)/ambulo tests/study/cluster_test.sh
 
 # Python, from PyPI, in build/python-venv; `make check` uses what there is
 PYTHON_PATH = PATH='$(CURDIR)/build/python-venv/bin':"$$PATH"
@@ -281,20 +281,20 @@ bench-table4: build/.ready-build
 
 # the page of `ambulo report` from its sources: needs npm, and the packages of package-lock.json
 viewer:
-	@rm -rf build/viewer && mkdir -p build && cp -R src/page/viewer build/viewer
-	@cd build/viewer && npm ci --silent --no-audit --no-fund && node build.mjs ../../src/page/viewer.html
+	@rm -rf build/viewer && mkdir -p build && cp -R src/show/viewer build/viewer
+	@cd build/viewer && npm ci --silent --no-audit --no-fund && node build.mjs ../../src/show/viewer.html
 
 # the page in a browser, which is installed if it is missing; without one, `make check` skips this
 check-page: build/.ready-page
 	$(submake) all
-	@AMBULO=$(OUT)/ambulo tests/page/run.sh
+	@AMBULO=$(OUT)/ambulo tests/show/run_page.sh
 
 bench-peers: build/.ready-build
 	$(submake) $(OUT)/ambulo $(OUT)/bench/peers/ours
 	@OUT=$(OUT) sh bench/peers.sh
 
 # the emulated processor has no AVX-512, so this also covers the narrower kernels
-VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/format/% $(OUT)/tests/trajectory/%,$(TESTS))
+VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/formats/% $(OUT)/tests/trajectory/%,$(TESTS))
 valgrind: build/.ready-valgrind
 	$(submake) $(VALGRIND_TESTS)
 	@TEST_WRAPPER='valgrind -q --leak-check=full --error-exitcode=99' JOBS=$(JOBS) \
@@ -307,10 +307,10 @@ coverage: build/.ready-test
 # -------------------------------------------------------------------- lint
 
 LINT := format static order size symbols callers mirror headers interface equations reading keys leftovers
-FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
+FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
-TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
+TIDY_SOURCES = $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))
 
 lint: build/.ready-lint
 	+@failed=; for part in $(LINT); do echo "lint-$$part"; \

@@ -10,7 +10,7 @@ fault() {
   echo "  $1: $2 is called by nobody in src"
   faults=1
 }
-symbols=$(for source in src/*/*.c; do
+symbols=$(for source in src/*/*.c src/*/*/*.c; do
   object=${source#src/}
   echo "$1/${object%.c}.o"
 done | xargs nm -A -g)
@@ -24,10 +24,10 @@ while read -r name source; do
 done < <(join -v 1 <(echo "$defined") <(echo "$needed"))
 
 # functions in headers: their definition is not enough
-words=$(cat src/*/*.[ch] | grep -v '^ \*' | grep -oE 'ambulo__[a-z0-9_]+' | sort | uniq -d)
+words=$(cat src/*/*.[ch] src/*/*/*.[ch] | grep -v '^ \*' | grep -oE 'ambulo__[a-z0-9_]+' | sort | uniq -d)
 while read -r name header; do
   fault "$header" "$name"
-done < <(grep -oE '^static inline [^(]*\(' src/*/*.h |
+done < <(grep -oE '^static inline [^(]*\(' src/*/*.h src/*/*/*.h |
   sed -nE 's/^([^:]*):static inline .*[ *](ambulo__[a-z0-9_]+)\($/\2 \1/p' | sort -u |
   join -v 1 - <(echo "$words"))
 exit "$faults"

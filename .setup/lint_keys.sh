@@ -27,7 +27,7 @@ compare() {
     sed -E 's/^\| ([^|]*) \|.*/\1/' | grep -oE '`[a-z_]+`' | tr -d '`' | sort -u)
 }
 
-compare docs/model-format.md src/reader/model_*.c src/format/yaml_file_kind.c
-compare docs/problem-format.md src/reader/problem_*.c src/format/yaml_file_kind.c
-compare docs/guide-fit.md src/fit/fit_*.c
+compare docs/model-format.md src/files/definitions/model_*.c src/files/formats/yaml_file_kind.c
+compare docs/problem-format.md src/files/definitions/problem_*.c src/files/formats/yaml_file_kind.c
+compare docs/guide-fit.md src/study/fit_*.c
 exit $bad

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every src/<folder>/<file>.c has a tests/<folder>/test_<file>.c, or stands with a reason in
+# Every src/.../<room>/<file>.c has a tests/<room>/test_<file>.c, or stands with a reason in
 # tests/untested.txt ("src/folder/file.c: reason"); no line there is out of date.
 set -u
 list=tests/untested.txt
@@ -10,7 +10,7 @@ fault() {
 }
 listed() { grep -sqE "^$1: .{10,}" "$list"; }
 
-for source in src/*/*.c; do
+for source in src/*/*.c src/*/*/*.c; do
   folder=$(basename "$(dirname "$source")")
   test=tests/$folder/test_$(basename "$source")
   if [ -f "$test" ]; then

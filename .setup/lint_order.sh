@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# lint_order.sh OBJECTS: the folders of src/ are a pipeline.
-#   - a folder never includes a header of one to its right;
-#   - an object of a folder (OBJECTS/folder/file.o) never needs a symbol that one to its right
-#     defines, nor do files need each other in a circle;
-#   - a private name is declared in a header of the folder that defines it;
+# lint_order.sh OBJECTS: the rooms of src/ are a pipeline, in the order below. Levels: src/engine/ROOM
+# comes first, then src/files/ROOM, then the rooms directly under src/.
+#   - a room never includes a header of a later room;
+#   - an object of a room (OBJECTS/.../room/file.o) never needs a symbol that a later room defines,
+#     and no files need each other in a circle;
+#   - a private name is declared in a header of the room that defines it;
 #   - the program includes and links only public names and its own.
 set -u
 objects=$1
-order=(base model format trajectory mechanics gait device objective nlp linear method judge solver sensitivity reader import outer
-  inverse export stride compare picture scene report front sweep batch collect fit page cli)
+order=(base model trajectory mechanics contact problem linear method solver formats definitions people
+  exchange show study cli)
 faults=0
 
 fault() {
@@ -22,28 +23,31 @@ position() {
   done
   echo -1
 }
+sources() { find src -name '*.c' | sort; }
+headers() { find src -name '*.h' | sort; }
+# the header of src that an include names
+header_of() { ls "src/engine/$1" "src/files/$1" "src/$1" 2>/dev/null | head -n 1; }
 
 # ---------------------------------------------------------------- includes
 
 while IFS=: read -r file line text; do
-  folder=${file#src/}
-  folder=${folder%%/*}
+  room=$(basename "$(dirname "$file")")
   target=$(sed -E 's/.*"([^"]*)".*/\1/' <<<"$text")
   area=${target%%/*}
-  here=$(position "$folder")
+  here=$(position "$room")
   there=$(position "$area")
   if [ "$here" -lt 0 ]; then
-    fault "$file:$line: folder '$folder' is not in the order: ${order[*]}"
+    fault "$file:$line: room '$room' is not in the order: ${order[*]}"
   elif [ "$area" = ambulo ]; then
     [ -f "include/$target" ] || fault "$file:$line: no public header '$target'"
-  elif [ ! -f "src/$target" ] || [ "$there" -lt 0 ]; then
-    fault "$file:$line: \"$target\" is neither \"ambulo/x.h\" nor \"folder/x.h\" of src"
-  elif [ "$folder" = cli ] && [ "$area" != cli ]; then
+  elif [ "$there" -lt 0 ] || [ -z "$(header_of "$target")" ]; then
+    fault "$file:$line: \"$target\" is neither \"ambulo/x.h\" nor \"room/x.h\" of src"
+  elif [ "$room" = cli ] && [ "$area" != cli ]; then
     fault "$file:$line: the program includes the private header \"$target\""
   elif [ "$there" -gt "$here" ]; then
-    fault "$file:$line: $folder includes \"$target\" from a folder to its right"
+    fault "$file:$line: $room includes \"$target\" of a later room"
   fi
-done < <(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src/*/*.c src/*/*.h)
+done < <(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' $(sources) $(headers))
 
 while IFS=: read -r file line text; do
   case $text in
@@ -56,11 +60,11 @@ done < <(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' include/ambul
 
 # objects of sources that are there; what an earlier build left behind does not count
 present=()
-for object in "$objects"/*/*.o; do
+while read -r object; do
   name=${object#"$objects"/}
   [ -f "src/${name%.o}.c" ] && present+=("$object")
-done
-for source in src/*/*.c; do
+done < <(find "$objects" -name '*.o' | sort)
+for source in $(sources); do
   name=${source#src/}
   case $name in *_avx*) continue ;; esac # not on every machine
   [ -f "$objects/${name%.c}.o" ] || fault "$source: no object in $objects; build first"
@@ -79,11 +83,11 @@ arrows=$(nm -A -g "${present[@]}" | sed "s#^$objects/##" | awk '
 [ -n "$arrows" ] || fault "no symbol passes between the objects of $objects"
 
 while read -r user definer symbol; do
-  [ -n "$symbol" ] && fault "src/$user: needs $symbol of src/$definer, in a folder to its right"
+  [ -n "$symbol" ] && fault "src/$user: needs $symbol of src/$definer, in a later room"
 done < <(awk -v order="${order[*]}" '
   BEGIN { count = split(order, name, " "); for (i = 1; i <= count; i++) place[name[i]] = i }
-  { split($1, a, "/"); split($2, b, "/") }
-  place[b[1]] > place[a[1]]' <<<"$arrows")
+  function room(path,    part, n) { n = split(path, part, "/"); return part[n - 1] }
+  place[room($2)] > place[room($1)]' <<<"$arrows")
 
 while read -r user definer symbol; do
   [ -n "$symbol" ] && fault "src/$user: the program needs the private $symbol of src/$definer"
@@ -121,19 +125,19 @@ done < <(awk '
 
 # private names: declared where they are defined
 while read -r header symbol folder; do
-  fault "$header: declares $symbol, which folder '$folder' defines"
+  fault "$header: declares $symbol, which room '$folder' defines"
 done < <(nm -A -g --defined-only "${present[@]}" | sed "s#^$objects/##" |
-  awk '$NF ~ /^ambulo__/ { split($1, part, "/"); print $NF, part[1] }' |
+  awk '$NF ~ /^ambulo__/ { sub(/:.*/, "", $1); n = split($1, part, "/"); print $NF, part[n - 1] }' |
   awk '
     NR == FNR { folder[$1] = $2; next }
     {
-      split(FILENAME, part, "/")
+      n = split(FILENAME, part, "/")
       if ($0 ~ /^(extern )?[a-z_].*\(/ && $0 !~ /^static/ && match($0, /ambulo__[a-z0-9_]+\(/)) {
         name = substr($0, RSTART, RLENGTH - 1)
-        if ((name in folder) && folder[name] != part[2])
+        if ((name in folder) && folder[name] != part[n - 1])
           print FILENAME, name, folder[name]
       }
-    }' - src/*/*.h)
+    }' - $(headers))
 
-[ "$faults" = 0 ] || echo "$faults faults in the order of folders"
+[ "$faults" = 0 ] || echo "$faults faults in the order of rooms"
 [ "$faults" = 0 ]

@@ -234,8 +234,8 @@ run_page() {
       grep -q '^cc ' "$path" && continue # run with the programs
       { echo "place='$place'"; wanted_lines "$page" "$where" "$path"; } >>"$work/session.sh"
     elif [ "$first" = '#!/bin/sh' ]; then # the script of docs/cluster.md
-      count "$place: the same as tests/batch/slurm_array.sh" \
-        diff "$path" <(sed '/^# sbatch/d' tests/batch/slurm_array.sh)
+      count "$place: the same as tests/study/slurm_array.sh" \
+        diff "$path" <(sed '/^# sbatch/d' tests/study/slurm_array.sh)
       cp "$path" "$folder/slurm_array.sh"
     elif ! exception "$page" "$where" "$first"; then
       case $file in

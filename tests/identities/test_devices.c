@@ -1,6 +1,6 @@
 /* What devices leave to the person, on whole problems: person and devices together are inverse
  * dynamics, nothing outside the body notices, and work adds up. */
-#include "nlp/nlp.h"
+#include "problem/nlp.h"
 #include "support/test.h"
 
 #define EXO                                                                                        \

@@ -1,6 +1,6 @@
 /* What is measured at the point that the workspace holds: errors relative to sizes; and that
  * nothing in it takes NaN for zero. */
-#include "judge/candidates.h"
+#include "solver/candidates.h"
 #include "method/parameters.h"
 #include "support/engine_fixture.h"
 

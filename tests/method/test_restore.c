@@ -1,5 +1,5 @@
 /* From zero to a point that satisfies every equality. */
-#include "nlp/states.h"
+#include "problem/states.h"
 #include "support/arm.h"
 #include "support/engine_fixture.h"
 

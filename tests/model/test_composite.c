@@ -1,4 +1,4 @@
-#include "reader/model_reader.h"
+#include "definitions/model_reader.h"
 #include "support/test.h"
 
 /* two halves of a rod along x make the rod: m L^2 / 12 */

@@ -1,5 +1,5 @@
 /* Terms of the caller at every scale: a solve ends where it ends with the built-in term. */
-#include "nlp/nlp.h"
+#include "problem/nlp.h"
 #include "support/planar_walker.h"
 #include "support/problem_fixture.h"
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_CURVED_SLOPES_H
 #define AMBULO_TESTS_CURVED_SLOPES_H
 
-#include "gait/curved.h"
+#include "contact/curved.h"
 
 #include <stddef.h>
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_DENSE_FIXTURE_H
 #define AMBULO_TESTS_DENSE_FIXTURE_H
 
-#include "judge/dense.h"
+#include "solver/dense.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
 

@@ -6,9 +6,9 @@
 #ifndef AMBULO_TESTS_FIT_FILES_H
 #define AMBULO_TESTS_FIT_FILES_H
 
-#include "compare/compare_curve.h"
+#include "people/compare_curve.h"
 #include "ambulo/problem.h"
-#include "fit/fit.h"
+#include "study/fit.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_FIT_RUNNER_H
 #define AMBULO_TESTS_FIT_RUNNER_H
 
-#include "fit/evaluate.h"
+#include "study/fit_evaluate.h"
 #include "support/fail_alloc.h"
 #include "support/fit_files.h"
 

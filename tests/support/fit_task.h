@@ -7,7 +7,7 @@
 #ifndef AMBULO_TESTS_FIT_TASK_H
 #define AMBULO_TESTS_FIT_TASK_H
 
-#include "fit/trial.h"
+#include "study/fit_trial.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"
 

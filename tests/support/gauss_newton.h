@@ -3,9 +3,9 @@
 #ifndef AMBULO_TESTS_GAUSS_NEWTON_H
 #define AMBULO_TESTS_GAUSS_NEWTON_H
 
-#include "nlp/nlp.h"
-#include "nlp/states.h"
-#include "nlp/user_term.h"
+#include "problem/nlp.h"
+#include "problem/states.h"
+#include "problem/user_term.h"
 #include "support/test.h"
 
 enum { GN_WIDEST = 512 }; /* unknowns that one node touches */
@@ -80,7 +80,7 @@ static inline void gn_add_composite(const ambulo_workspace *workspace, const amb
 }
 
 /* Added to the symmetric local[width * width] (row-major, both triangles). Uses the curvature of
- * the terms (objective/term.h). */
+ * the terms (problem/term.h). */
 static inline void node_gauss_newton(const ambulo_workspace *workspace, int node, double *local) {
   const ambulo_problem *p = workspace->problem;
   double g[GN_WIDEST];

@@ -3,7 +3,7 @@
 #define AMBULO_TESTS_INVERSE_TABLE_H
 
 #include "ambulo/ambulo.h"
-#include "format/motion_file.h"
+#include "formats/motion_file.h"
 #include "support/messages.h"
 #include "support/motion_text.h"
 

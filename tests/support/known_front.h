@@ -3,7 +3,7 @@
 #ifndef AMBULO_TESTS_KNOWN_FRONT_H
 #define AMBULO_TESTS_KNOWN_FRONT_H
 
-#include "front/front.h"
+#include "study/front.h"
 #include "support/test.h"
 
 enum { KNOWN_SAMPLES = 20000, KNOWN_ROOM = 1600 };

@@ -3,7 +3,7 @@
 #define AMBULO_TESTS_METRIC_ALONG_H
 
 #include "method/metric.h"
-#include "nlp/nlp.h"
+#include "problem/nlp.h"
 #include "support/test.h"
 
 /* d'H d at x, found for an objective times 1.7 and divided by it */

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_MOTION_TEXT_H
 #define AMBULO_TESTS_MOTION_TEXT_H
 
-#include "format/motion_file.h"
+#include "formats/motion_file.h"
 
 /* as ambulo__motion_read does with a file of that name */
 static inline ambulo_status motion_read_text(const char *text, size_t length, const char *name,

@@ -5,7 +5,7 @@
 #define AMBULO_TESTS_MOVED_PROBLEM_H
 
 #include "model/model.h"
-#include "nlp/nlp.h"
+#include "problem/nlp.h"
 #include "support/test.h"
 
 enum { MOST_WITH = 6 };

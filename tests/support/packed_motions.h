@@ -1,4 +1,4 @@
-/* tests/support/packed_motions.h - motions as they were before page/motion_pack.h wrote them. */
+/* tests/support/packed_motions.h - motions as they were before show/motion_pack.h wrote them. */
 #ifndef AMBULO_TESTS_PACKED_MOTIONS_H
 #define AMBULO_TESTS_PACKED_MOTIONS_H
 

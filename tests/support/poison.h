@@ -7,14 +7,14 @@
 #ifndef AMBULO_TESTS_POISON_H
 #define AMBULO_TESTS_POISON_H
 
-#include "nlp/nlp.h"
+#include "problem/nlp.h"
 #include "support/test.h"
 
 /* ------------------------------------------------- functions of the caller */
 
 typedef struct poison {
   int node;     /* where; -1: nowhere */
-  int entry;    /* -1: the value; else a channel, as in gait/channels.h */
+  int entry;    /* -1: the value; else a channel, as in contact/channels.h */
   double value; /* NAN or infinite */
   int calls, after;
   int coordinates;

@@ -7,7 +7,7 @@
 #define AMBULO_TESTS_SENSITIVITY_CHECK_H
 
 #include "ambulo/ambulo.h"
-#include "judge/result.h"
+#include "solver/result.h"
 #include "support/moved_problem.h"
 
 enum { MOST_OVERRIDES = 14, MOST_WANTED = 20 };

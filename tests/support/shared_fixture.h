@@ -5,8 +5,8 @@
 #define AMBULO_TESTS_SHARED_FIXTURE_H
 
 #include "ambulo/ambulo.h"
-#include "gait/contact_load.h"
-#include "nlp/nlp.h"
+#include "contact/contact_load.h"
+#include "problem/nlp.h"
 #include "support/toed_body.h"
 
 enum { KINDS = 4, EFFECTORS = 4 /* at most */ };

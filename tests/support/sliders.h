@@ -4,7 +4,7 @@
 #ifndef AMBULO_TESTS_SLIDERS_H
 #define AMBULO_TESTS_SLIDERS_H
 
-#include "judge/explain.h"
+#include "solver/explain.h"
 #include "support/test.h"
 
 enum { SLIDERS = 6, SLIDER_ROWS = 4, SLIDER_POINTS = 7 };

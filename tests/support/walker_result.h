@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_WALKER_RESULT_H
 #define AMBULO_TESTS_WALKER_RESULT_H
 
-#include "judge/result.h"
+#include "solver/result.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_YAML_H
 #define AMBULO_TESTS_YAML_H
 
-#include "format/yaml_node.h"
+#include "formats/yaml_node.h"
 #include "support/test.h"
 
 typedef struct yaml_case {

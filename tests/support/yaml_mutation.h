@@ -6,7 +6,7 @@
 #ifndef AMBULO_TESTS_YAML_MUTATION_H
 #define AMBULO_TESTS_YAML_MUTATION_H
 
-#include "format/yaml_tree.h"
+#include "formats/yaml_tree.h"
 #include "support/test.h"
 
 static const char *const mutation_values[] = {

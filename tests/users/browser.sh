@@ -12,7 +12,7 @@ browser_checks() {
   fi
   echo '<!doctype html><meta charset="utf-8">' >all.html
   for name in "$@"; do
-    awk -v kind="$name" -v first="$top/tests/page/watch.js" -v last="$here/checks.js" '
+    awk -v kind="$name" -v first="$top/tests/show/watch.js" -v last="$here/checks.js" '
       function put(file, line) { while ((getline line < file) > 0) print line; close(file) }
       { print }
       /^<meta charset/ { print "<script>window.kind = \"" kind "\";"; put(first); print "</script>" }

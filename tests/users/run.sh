@@ -66,7 +66,7 @@ problem_of() { # PAGE FILE: the problem that the page writes, for what it can do
   sed -n '/^cat >.*_walk.yaml <</,/^END$/p' "$top/docs/$1.md" | sed '1d; $d' >"$2"
 }
 imports() {
-  "$AMBULO" import "$models/../tests/import/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
+  "$AMBULO" import "$models/../tests/exchange/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
   echo "skipped: $1 (built without expat)"
   return 1
 }
@@ -129,7 +129,7 @@ study() {
 every_case() { # FOLDER: each name of the table, with its motion, in 1.2 MB
   local id
   local table
-  table=$("$top/tests/page/table_of.sh" "$1/report.html")
+  table=$("$top/tests/show/table_of.sh" "$1/report.html")
   cut -d , -f 1 "$1/results.csv" | grep -v '^#' | tail -n +2 | while read -r id; do
     grep -q "\"$id\"" <<<"$table" || return 1
   done || return 1

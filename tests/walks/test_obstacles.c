@@ -2,9 +2,9 @@
  * ten times as fine as the nodes every capsule keeps clear, and each body does what is asked. */
 #include "ambulo/ambulo.h"
 #include "mechanics/pose.h"
-#include "nlp/nlp.h"
-#include "stride/approach.h"
-#include "stride/stride.h"
+#include "problem/nlp.h"
+#include "people/approach.h"
+#include "people/stride.h"
 #include "support/shared_data.h"
 #include "support/test.h"
 

@@ -1,8 +1,8 @@
 /* Patches in whole problems: what strides, tables, and the look between the nodes say of them. */
-#include "format/motion_csv.h"
-#include "judge/dense.h"
-#include "stride/impulse.h"
-#include "stride/stride.h"
+#include "formats/motion_csv.h"
+#include "solver/dense.h"
+#include "people/impulse.h"
+#include "people/stride.h"
 #include "support/patched_problem.h"
 
 /* ------------------------------------------------------------ mirrored strides */

@@ -7,9 +7,9 @@
 #include "support/shared_data.h"
 
 #include "ambulo/ambulo.h"
-#include "gait/flight.h"
+#include "contact/flight.h"
 #include "mechanics/pose.h"
-#include "nlp/problem.h"
+#include "problem/problem.h"
 
 typedef struct run {
   ambulo_problem *problem;

@@ -1,9 +1,9 @@
 /* Contacts that share the load, in whole problems (support/shared_fixture.h). What the kernels give
  * is compared with mechanics by other routes. */
-#include "gait/effector.h"
-#include "gait/stance.h"
+#include "contact/effector.h"
+#include "contact/stance.h"
 #include "mechanics/pose.h"
-#include "stride/impulse.h"
+#include "people/impulse.h"
 #include "support/shared_fixture.h"
 
 enum { MOST_ERRORS = 32 };

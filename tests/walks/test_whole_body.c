@@ -1,6 +1,6 @@
 /* models/walk_whole_body.yaml, its larger bodies and run_whole_body.yaml, from zero: arms that
  * nothing tells how to swing. */
-#include "stride/stride.h"
+#include "people/stride.h"
 #include "support/test.h"
 
 #include "ambulo/ambulo.h"

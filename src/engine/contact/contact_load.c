@@ -1,0 +1,243 @@
+/* contact/contact_load.c - weight, centre, region of pressure and greatest force of a contact
+ * (contact_load.h).
+ *
+ * A stance is the uninterrupted time [b, e] that a foot or a patch is down, in a motion that
+ * repeats beyond the ends; one that begins at 0 or ends at T of a motion that does not has no
+ * beginning or end. S(u) = u^2 (3 - 2 u), u cut to [0, 1].
+ *
+ * Weight. Over the time that the stance shares with those that were there before it, and with
+ * those that stay:
+ *
+ *     w = S((t - b) / (b' - b)) S((e - t) / (e - e'))
+ *     b' = earliest end of the stances of other feet and patches that hold at b (none: no such
+ * factor) e' = latest beginning of those that hold at e
+ *
+ * A neighbour that outlasts the stance on that side gives half the stance, and a stance of no
+ * length (a strike where the motion ends) carries nothing.
+ *
+ * Roll r, from 0 on the heel to 1 on the toes. A flat foot is at 1/2; it comes there from where it
+ * was, by S, once it is flat and until the neighbour has left (b'), and goes on to where it will be
+ * from when the next one is there (e') until it is not flat any more, either over a sixteenth of
+ * the flat time at least: else a foot that leaves just after this one has come to be flat has the
+ * centre jump while both are loaded. Half of the flat time each where there is no such event in it;
+ * a roll from heel to toes without a flat foot is a jump.
+ *
+ * Centre, ahead of the heel's foothold, with L from heel to toe centre (ball): r (L + a),
+ * a = 0.02 m for 1.75 m. What a single contact carries does not depend on its centre.
+ *
+ * A foot with a joint between heel and ball has two contacts, which share its weight w: the rear
+ * one has w until the foot rolls on from flat to the toes, and passes it away by that S; its centre
+ * is at min(r, 1/2) L. The fore one gets w as the foot rolls from the heel to flat; its centre is
+ * at L + a. Likewise backwards.
+ *
+ * A patch does not roll: its centre is its place, and pressure is within its size about that.
+ *
+ * Greatest normal force, body weights:
+ *
+ *     g(min(t - b, e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
+ *
+ * [b, e] now the time that the contact is down, with the loading rate rho and tau = 6.5 ms
+ * (for 1.75 m) over which it sets in: a force that began with its full rate would have a corner,
+ * which nodes do not follow and which rings.
+ */
+#include "contact/contact_load.h"
+#include "base/vector.h"
+#include "base/instant.h"
+#include "contact/effector.h"
+#include "contact/loading.h"
+#include "contact/stance.h"
+#include "model/model.h"
+
+#include <math.h>
+
+static const double loading_onset =
+    0.0065; /* s: tau; from 0 rms above 15 Hz doubles; with .01 a front foot has .15 of the load at
+               2 % of the stride, people .25 */
+
+/* -------------------------------------------------------------------- slots */
+
+static void add_slot(ambulo__slots *s, int effector, int link, ambulo__slot_part part) {
+  int i = s->count++;
+  if (i >= AMBULO__MOST_SLOTS) return;
+  s->effector[i] = effector;
+  s->link[i] = link;
+  s->part[i] = (int)part;
+}
+
+ambulo__slots ambulo__slots_of(const ambulo_problem_definition *d) {
+  const ambulo_model *m = d->model;
+  ambulo__slots s = {.count = 0};
+  for (int fore = 0; fore < 2; fore++) {
+    for (int f = 0; f < m->foot_count; f++) {
+      int heel = m->points[m->feet[f].heel_center].link,
+          toe = m->points[m->feet[f].toe_center].link;
+      if (!fore) add_slot(&s, f, heel, heel == toe ? AMBULO__WHOLE_FOOT : AMBULO__REAR_FOOT);
+      if (fore && heel != toe) add_slot(&s, f, toe, AMBULO__FORE_FOOT);
+    }
+  }
+  for (int i = 0; i < m->patch_count; i++)
+    if (ambulo__patch_is_used(d, i))
+      add_slot(&s, m->foot_count + i, m->points[m->patches[i].point].link, AMBULO__WHOLE_PATCH);
+  return s;
+}
+
+const char *ambulo__slot_name(const ambulo_model *m, const ambulo__slots *slots, int slot) {
+  int effector = slots->effector[slot], part = slots->part[slot];
+  if (part == (int)AMBULO__WHOLE_FOOT || part == (int)AMBULO__WHOLE_PATCH)
+    return ambulo__effector_name(m, effector);
+  const ambulo_foot *foot = &m->feet[effector];
+  int point = part == (int)AMBULO__REAR_FOOT ? foot->heel_center : foot->toe_center;
+  return m->points[point].name;
+}
+
+/* -------------------------------------------------------------------- weight */
+
+static double ramp(double time, double from, double to) {
+  return to - from > AMBULO__INSTANT ? ambulo__smooth_step((time - from) / (to - from)) : 1.0;
+}
+
+/* a foot that strikes where the motion ends has not begun to carry */
+static double weight_of(const ambulo__stance *s, double time) {
+  double weight = 1.0;
+  if (isfinite(s->leaves))
+    weight *= s->leaves - s->from > AMBULO__INSTANT ? ramp(time, s->from, s->leaves) : 0.0;
+  if (isfinite(s->comes)) weight *= 1.0 - ramp(time, s->comes, s->to);
+  return weight;
+}
+
+/* ---------------------------------------------------------------------- roll */
+
+/* Where between heel (0) and toes (1) a foot is, and what of its weight either part of it has. */
+typedef struct roll {
+  double along, rear, fore;
+} roll;
+
+static double place_of(int mode) {
+  return mode == (int)AMBULO_CONTACT_HEEL ? 0.0 : mode == (int)AMBULO_CONTACT_TOE ? 1.0 : 0.5;
+}
+
+static roll roll_of_flat(const ambulo__stance *stance, double time) {
+  ambulo__span flat = stance->phase;
+  double middle = 0.5 * (flat.from + flat.to);
+  double settled = stance->leaves > flat.from && stance->leaves < flat.to ? stance->leaves : middle;
+  double leaving = stance->comes > flat.from && stance->comes < flat.to ? stance->comes : middle;
+  double least = (flat.to - flat.from) * AMBULO__SHORTEST_GLIDE;
+  settled = fmax(settled, flat.from + least);
+  leaving = fmin(leaving, flat.to - least);
+  if (leaving < settled) settled = leaving = middle;
+  double on = ramp(time, flat.from, settled), off = ramp(time, leaving, flat.to);
+  double from = place_of(stance->before), to = place_of(stance->after);
+  roll r = {.along = 0.5 - (0.5 - from) * (1.0 - on) + (to - 0.5) * off};
+  r.rear = (from > 0.5 ? on : 1.0) * (to > 0.5 ? 1.0 - off : 1.0);
+  r.fore = (from < 0.5 ? on : 1.0) * (to < 0.5 ? 1.0 - off : 1.0);
+  return r;
+}
+
+static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
+  if (contact->mode == AMBULO_CONTACT_FLAT) return roll_of_flat(stance, time);
+  double along = place_of((int)contact->mode);
+  return (roll){along, 1.0 - along, along};
+}
+
+/* ----------------------------------------------------------- where pressure is */
+
+/* on the heel, of the time from strike to foot-flat; else 0 */
+static double rolled(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
+  double rolling = contact->to - stance->from;
+  if (contact->mode != AMBULO_CONTACT_HEEL || !(rolling > 0.0) || isinf(rolling)) return 0.0;
+  return (time - stance->from) / rolling;
+}
+
+/* ends along forward, from the heel's foothold */
+static void box_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
+                   double part_rolled, double box[2]) {
+  if (contact->mode == AMBULO_CONTACT_FLAT) {
+    box[0] = r->flat_pressure[0];
+    box[1] = length + r->flat_pressure[1];
+  } else if (contact->mode == AMBULO_CONTACT_TOE) {
+    box[0] = length + r->toe_pressure[0];
+    box[1] = length + r->toe_pressure[1];
+  } else {
+    box[0] = r->heel_pressure[0];
+    box[1] = r->heel_pressure[1] + r->heel_roll * part_rolled;
+  }
+}
+
+/* ---------------------------------------------------------------------- load */
+
+/* modes in which a part is down */
+static int modes_of(ambulo__slot_part part) {
+  if (part == AMBULO__REAR_FOOT) return 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT;
+  if (part == AMBULO__FORE_FOOT) return 1 << AMBULO_CONTACT_FLAT | 1 << AMBULO_CONTACT_TOE;
+  return AMBULO__ANY_MODE;
+}
+
+/* weight, centre and box of the foot become those of the part; returns the centre */
+static double narrow(ambulo__slot_part part, roll at, double length, double size,
+                     ambulo__contact_load *load) {
+  double ahead = length + AMBULO__BEYOND_BALL * size, *box = load->box;
+  if (part == AMBULO__WHOLE_FOOT) return at.along * ahead;
+  load->weight *= part == AMBULO__REAR_FOOT ? at.rear : at.fore;
+  int end = part == AMBULO__REAR_FOOT; /* the one beside the joint */
+  load->cut[end] = end ? box[1] > length : box[0] < length;
+  if (load->cut[end]) box[end] = length;
+  return end ? fmin(at.along, 0.5) * length : ahead;
+}
+
+/* g, and s dg/ds */
+static double most_after(double rate, double onset_time, double time, double *by_time) {
+  *by_time = 0.0;
+  if (isnan(rate) || isinf(time)) return INFINITY;
+  time = fmax(0.0, time);
+  double onset = expm1(-time / onset_time);
+  *by_time = -rate * onset * time;
+  return rate * (time + onset_time * onset);
+}
+
+/* region, centre and arc of a foot's contact; its weight goes to the part */
+static void load_foot(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
+                      const ambulo_contact *contact, const ambulo__stance *stance,
+                      ambulo__slot_part part, double time, ambulo__contact_load *load) {
+  const ambulo_ground_reaction *r = &d->ground_reaction;
+  load->rolled = rolled(contact, stance, time);
+  box_of(r, contact, outline->length, load->rolled, load->box);
+  double center = narrow(part, roll_of(contact, stance, time), outline->length,
+                         ambulo__model_size(d->model), load);
+  for (int i = 0; i < 3; i++) load->center[i] += center * load->frame.forward[i];
+  load->box[0] -= center;
+  load->box[1] -= center;
+  load->side = r->pressure_width;
+  if (outline->has_arcs && contact->mode != AMBULO_CONTACT_FLAT)
+    load->arc = outline->arc[contact->mode == AMBULO_CONTACT_TOE];
+}
+
+/* (W.8) the contact of a slot */
+ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
+                                             const ambulo__foot_outline *outlines,
+                                             const ambulo__slots *slots, int slot,
+                                             const ambulo_contact *contact, double time) {
+  ambulo__contact_load load = {.loaded = 0, .arc = -1};
+  int effector = slots->effector[slot], patch = ambulo__effector_patch(d->model, effector);
+  ambulo__slot_part part = (ambulo__slot_part)slots->part[slot];
+  if (!contact) contact = ambulo__contact_of(d, effector, time);
+  if (!contact || !(modes_of(part) & 1 << contact->mode)) return load;
+  ambulo__stance stance = ambulo__stance_of(d, contact);
+  ambulo__span down = ambulo__stance_in(d, contact, modes_of(part));
+  load.loaded = 1;
+  load.weight = weight_of(&stance, time);
+  load.frame = ambulo__contact_frame_of(d, contact);
+  for (int i = 0; i < 3; i++) load.center[i] = load.frame.origin[i];
+  if (patch < 0) {
+    load_foot(d, &outlines[effector], contact, &stance, part, time, &load);
+  } else {
+    load.box[1] = d->model->patches[patch].size[0];
+    load.box[0] = -load.box[1];
+    load.side = d->model->patches[patch].size[1];
+  }
+  load.since = time - down.from;
+  load.until = down.to - time;
+  load.most = most_after(d->ground_reaction.loading_rate,
+                         loading_onset * sqrt(ambulo__model_size(d->model)),
+                         fmin(load.since, load.until), &load.most_by_time);
+  return load;
+}

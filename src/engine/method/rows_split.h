@@ -1,0 +1,41 @@
+/* method/rows_split.h - the roles that rows play in the solver.
+ *
+ *   equality    independent equalities inside one node's window: local
+ *   border      independent equalities across nodes (periodic, mirrored ends): linear
+ *   inequality  every inequality
+ *
+ * Each in the order of the problem's rows, as scaled gradients (linear/sparse_rows.h):
+ *   equality    scale 1
+ *   border      scale 1
+ *   inequality  "excess" v = -c / size <= 0, size from the row table (contact/row_table.h), which
+ *               makes rows of different unit comparable; rows of the caller: the length of their
+ *               gradient at the start
+ */
+#ifndef AMBULO_METHOD_ROWS_SPLIT_H
+#define AMBULO_METHOD_ROWS_SPLIT_H
+
+#include "method/presolve_rank.h"
+#include "linear/sparse_rows.h"
+
+typedef struct ambulo__rows_split {
+  ambulo__sparse_rows equality, border, inequality;
+  double *unit; /* [inequality.count]: the sizes above */
+  double *size; /* what each is divided by: the same, or what balance.h makes of it */
+  int *rank;    /* [rows]: ambulo__row_rank */
+  int dropped;
+  int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */
+} ambulo__rows_split;
+
+/* What row i of a filled set is divided by in the solver: see above. */
+double ambulo__rows_size(const ambulo_problem *problem, const ambulo__sparse_rows *rows, int i);
+
+/* 1 when some equality of the problem's `count` rows contradicts equalities before it. */
+int ambulo__rows_contradict(const ambulo__rows_split *rows, int count);
+
+/* Classifies, creates the three sets and fills their gradients at the start. E_MEMORY; E_LIMIT: the
+ * run was stopped meanwhile. */
+ambulo_status ambulo__rows_split_create(const ambulo_problem *problem, ambulo_workspace *workspace,
+                                        const double *start, ambulo__run *run, ambulo__pool *pool,
+                                        ambulo_diagnostics *diagnostics, ambulo__rows_split *out);
+
+#endif

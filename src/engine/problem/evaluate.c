@@ -1,0 +1,245 @@
+/* problem/evaluate.c - one point: channels, objective and rows, everything once.
+ *
+ * Quantities (d coordinates, N + 1 nodes, blocks of 8 nodes):
+ *   x         [control_points][d]            unknowns
+ *   channel   [blocks][channels][8]          q, qd, qdd, tau, M, F, points (contact/channels.h)
+ *   row       c_r = constant + sum coefficient * channel         (Eqs. 14, 17')
+ *   objective J = sum_terms weight sum_k w_k sum_i phi(u_ik)      (Eq. 13, trapezoidal w_k)
+ *
+ * x -> (q, qd, qdd) is linear (trajectory/basis.h), (q, qd, qdd) -> (tau, M, F, points) is
+ * the forward recursion, channels -> rows and J is local to a node. Cost O(N).
+ *
+ * Everything is cached on x: solvers ask for the objective, the constraints and their
+ * gradients separately, and SLSQP repeats every third point.
+ */
+#include "base/worst.h"
+#include "problem/fault.h"
+#include "problem/held.h"
+#include "problem/states.h"
+#include "problem/user_term.h"
+
+#include <math.h>
+#include <string.h>
+
+static double *block_of(const ambulo_workspace *workspace, double *base, int block) {
+  return base + (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;
+}
+
+static double channel_at(const ambulo_workspace *workspace, int node, int channel) {
+  return workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
+void ambulo__mechanics_block(const ambulo_problem *p, const double *ground, const double *told,
+                             int block, double *c, double *scratch, double *room) {
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  const double *of_block = ambulo__told_block(p, told, block);
+  ambulo__held_begin(p, of_block, c, scratch, room);
+  p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, ground, block),
+                      c + 3 * d8, scratch);
+  ambulo__held_end(p, c, room);
+  if (!p->devices) return;
+  double *effort = c + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
+  ambulo__devices_apply(p->devices, c, c + d8, of_block, c + 3 * d8, effort, room);
+}
+
+static void compute_channels(ambulo_workspace *workspace, const double *x) {
+  const ambulo_problem *p = workspace->problem;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
+  double *c = workspace->channel;
+  ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
+  for (int block = 0; block < p->blocks; block++)
+    ambulo__mechanics_block(p, p->ground, p->told, block, block_of(workspace, c, block),
+                            workspace->scratch, workspace->device_scratch);
+}
+
+static double *slope_at(ambulo_workspace *workspace, int node, int channel) {
+  return &workspace->term_slope[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
+static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  const ambulo_problem *p = workspace->problem;
+  double sum = 0.0;
+  for (int k = 0; k < p->nodes; k++)
+    sum += p->quadrature[k] * ambulo__user_term_value(workspace, term, k);
+  return sum;
+}
+
+/* one coordinate of a term, block by block; the padding has weight zero */
+static double residual_sum(ambulo_workspace *workspace, const ambulo_term *term, double least,
+                           int i) {
+  const ambulo_problem *p = workspace->problem;
+  double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
+  double sum[AMBULO__LANES] = {0.0}, total = 0.0;
+  const double factor = term->weight * ambulo__term_scale(term, i);
+  int channel = ambulo__term_channel(term, &p->channels, i);
+  for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
+    const size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
+    double *to = workspace->term_slope + at;
+    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
+    ambulo__term_shapes(term, least, u, value, slope);
+    for (int l = 0; l < AMBULO__LANES; l++) {
+      sum[l] += p->quadrature[k + l] * value[l];
+      to[l] += factor * p->quadrature[k + l] * slope[l];
+    }
+  }
+  for (int l = 0; l < AMBULO__LANES; l++) total += sum[l];
+  return total;
+}
+
+static double residual_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  double sum = 0.0, least = ambulo__term_least(term);
+  for (int i = 0; i < workspace->problem->coordinates; i++) {
+    if (ambulo__term_scale(term, i) != 0.0) sum += residual_sum(workspace, term, least, i);
+  }
+  return sum;
+}
+
+static double composite_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_context context = ambulo__term_context_of(workspace);
+  double sum = 0.0, least = ambulo__term_least(term);
+  for (int k = 0; k < p->nodes; k++) {
+    int count = ambulo__term_forms(term, &context, k);
+    double node = 0.0, quadrature = ambulo__term_quadrature(p, term, k);
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &context, k, j, &form);
+      if (form.count == 0) continue;
+      ambulo__residual phi = ambulo__term_residual_from(term, least, form.u);
+      double slope = term->weight * quadrature * phi.slope;
+      for (int c = 0; c < form.count; c++)
+        *slope_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
+      node += phi.value;
+    }
+    sum += quadrature * node;
+  }
+  return sum;
+}
+
+static double term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  if (ambulo__is_user_term(term)) return user_term_value(workspace, term);
+  if (ambulo__term_is_simple(term)) return residual_term_value(workspace, term);
+  return composite_term_value(workspace, term);
+}
+
+/* (13) w_k times each term, summed over the nodes; on the way the slopes of all but those of the
+ * caller, since whoever asks for a value asks for the gradient next */
+static double evaluate_terms(ambulo_workspace *workspace) {
+  const ambulo_problem_definition *definition = &workspace->problem->definition;
+  size_t lanes = (size_t)workspace->problem->blocks * (size_t)workspace->channel_count;
+  double total = 0.0;
+  memset(workspace->term_slope, 0, lanes * AMBULO__LANES * sizeof *workspace->term_slope);
+  for (int t = 0; t < definition->term_count; t++) {
+    const ambulo_term *term = &definition->terms[t];
+    double value = term_value(workspace, term);
+    workspace->term_value[t] = term->weight * value;
+    total += workspace->term_value[t];
+  }
+  return total;
+}
+
+/* the slopes on its own channels; the others are never looked at (problem/states.h) */
+static double curved_row_value(const ambulo_workspace *workspace, const ambulo__curved *row,
+                               int node, double *slope) {
+  const double *y = workspace->channel + ambulo__lane_index(node, workspace->channel_count, 0);
+  int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(row, channel);
+  for (int k = 0; k < count; k++) slope[channel[k]] = 0.0;
+  return ambulo__curved_value(row, y, AMBULO__LANES, slope);
+}
+
+static double user_row_value(ambulo_workspace *workspace, int row) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__table_row *r = &p->table.rows[row];
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, r);
+  double *slope = workspace->user_gradient +
+                  (size_t)workspace->user_slot[row] * (size_t)workspace->channel_count;
+  if (curved) return curved_row_value(workspace, curved, r->node, slope);
+  memset(slope, 0, (size_t)workspace->channel_count * sizeof *slope);
+  const ambulo_user_row *user = &p->definition.user_rows[r->user];
+  ambulo__node_state_fill(workspace, r->node, workspace->node_state);
+  ambulo_node_state state = ambulo__node_state_view(p, r->node, workspace->node_state);
+  ambulo_node_gradient gradient = ambulo__node_gradient_view(p, slope);
+  return user->function(user->user, &state, &gradient);
+}
+
+/* a row with a term on an unknown */
+static double mixed_row_value(const ambulo_workspace *workspace, const ambulo__table_row *row) {
+  const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
+  double value = row->constant;
+  for (int t = 0; t < row->term_count; t++) {
+    double y = term[t].node < 0 ? workspace->x[term[t].channel]
+                                : channel_at(workspace, term[t].node, term[t].channel);
+    value += term[t].coefficient * y;
+  }
+  return value;
+}
+
+/* (14) (24) every row from the channels of its node */
+static void evaluate_rows(ambulo_workspace *workspace) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__row_runs *runs = &p->row_runs;
+  ambulo__row_runs_values(runs, workspace->channel, workspace->row_value);
+  for (int o = 0; o < runs->odd_count; o++) {
+    int r = runs->odd[o];
+    const ambulo__table_row *row = &p->table.rows[r];
+    workspace->row_value[r] =
+        row->user >= 0 ? user_row_value(workspace, r) : mixed_row_value(workspace, row);
+  }
+}
+
+ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
+  size_t bytes = (size_t)workspace->problem->variables * sizeof *x;
+  if (workspace->has_values && memcmp(x, workspace->x, bytes) == 0) return AMBULO_OK;
+  double start = ambulo__seconds_now();
+  if (x != workspace->x) memcpy(workspace->x, x, bytes);
+  workspace->has_values = workspace->has_jacobian = 0;
+  compute_channels(workspace, workspace->x);
+  workspace->objective = evaluate_terms(workspace);
+  evaluate_rows(workspace);
+  int finite = ambulo__all_finite(workspace->row_value, (size_t)workspace->problem->rows) &&
+               isfinite(workspace->objective);
+  if (!finite) ambulo__fault_of_values(workspace);
+  workspace->evaluations++;
+  workspace->seconds_evaluate += ambulo__seconds_now() - start;
+  if (!finite) return AMBULO_E_NUMERIC;
+  workspace->has_values = 1;
+  return AMBULO_OK;
+}
+
+static void keep_devices(ambulo_workspace *workspace) {
+  const ambulo_problem *p = workspace->problem;
+  size_t entries = ambulo__devices_entries(p->devices);
+  for (int k = 0; k < p->nodes; k++) {
+    const double *q = workspace->channel + ambulo__lane_index(k, workspace->channel_count, 0);
+    ambulo__devices_keep(p->devices, q, q + (size_t)p->coordinates * AMBULO__LANES,
+                         p->told + ambulo__lane_index(k, ambulo__told_entries(p), 0),
+                         workspace->device_kept + (size_t)k * entries);
+  }
+}
+
+ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x) {
+  ambulo_status status = ambulo__evaluate(workspace, x);
+  if (status || workspace->has_jacobian) return status;
+  double start = ambulo__seconds_now();
+  const ambulo_problem *p = workspace->problem;
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  for (int b = 0; b < p->blocks; b++) {
+    double *c = block_of(workspace, workspace->channel, b);
+    size_t all = (size_t)b * (size_t)pattern.count * AMBULO__LANES;
+    size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
+    ambulo__held_begin(p, ambulo__told_block(p, p->told, b), c, workspace->scratch,
+                       workspace->device_scratch);
+    p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, b),
+                         workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
+                         workspace->scratch);
+    ambulo__wrench_gather(workspace, b);
+    ambulo__held_gather(workspace, b);
+  }
+  if (p->devices) keep_devices(workspace);
+  workspace->jacobians++;
+  workspace->has_jacobian = 1;
+  workspace->seconds_evaluate += ambulo__seconds_now() - start;
+  return AMBULO_OK;
+}

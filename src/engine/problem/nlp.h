@@ -1,0 +1,256 @@
+/* problem/nlp.h - the inside of a problem and of a workspace; what the solver builds on.
+ *
+ * Unknowns x [control_points][d] row-major, so that the unknowns a node depends on
+ * are contiguous: node k touches x[first_k * d .. (first_k + span_k) * d), the "local
+ * unknowns" of the node; local index = (c - first_k) * d + i. All matrices built from
+ * node rows are therefore banded.
+ *
+ * Rows (problem->rows) are in physical units, as in ambulo/problem.h:
+ * equality c = 0, inequality c >= 0. A row whose terms all stand on one node is
+ * "local"; the others (periodic, mirrored ends) are "border" rows; a row on unknowns
+ * is a "variable" row and also kept as border.
+ */
+#ifndef AMBULO_PROBLEM_NLP_H
+#define AMBULO_PROBLEM_NLP_H
+
+#include "ambulo/solve.h"
+#include "contact/devices.h"
+#include "contact/holds.h"
+#include "contact/collision.h"
+#include "contact/foot_outline.h"
+#include "contact/gait.h"
+#include "mechanics/plan.h"
+#include "problem/row_runs.h"
+#include "problem/term.h"
+#include "trajectory/basis.h"
+#include "trajectory/lane_map.h"
+
+#define AMBULO__COMFORTABLE_NUMBER 0.31 /* v / sqrt(g H): 1.28 m/s for 1.75 m */
+enum { AMBULO__PHASES = 4 };            /* heel_strike, foot_flat, heel_off, toe_off of a gait */
+typedef enum ambulo__phase_kind {
+  AMBULO__PHASE_SHARE,    /* of the stride, at any speed */
+  AMBULO__PHASE_FUNCTION, /* of the speed, as the file has it */
+  AMBULO__PHASE_OF_PEOPLE /* of the speed, the program's own */
+} ambulo__phase_kind;
+
+/* Which keys the problem's file has, for advice in its words; all 0: the problem was made from C.
+ */
+typedef struct ambulo__problem_keys {
+  int file;            /* it was read from a file */
+  int terms;           /* of the objective that the file has */
+  int gait;            /* the contacts come from `gait` */
+  int steps;           /* of the gait */
+  int unlike_steps;    /* two step lengths or times that differ */
+  int speed;           /* gait.speed is there: with it the step length decides on the duration */
+  int travel;          /* ends.travel is there */
+  int length;          /* gait.step_length is there */
+  int lengths;         /* as a list */
+  int length_function; /* as a function of the speed number */
+  double length_constant, length_slope; /* of it: at the comfortable number; by it, m */
+  int step_time;                        /* gait.step_time is there, one number */
+  int times;                            /* as a list */
+  int duration;                         /* time.duration is there */
+  int loads;                            /* `load` is a list, and which items of it are on links */
+  int load_item[AMBULO__MOST_LOADS], hold_item[AMBULO__MOST_LOADS]; /* and in hands */
+  ambulo_gait walk; /* what the keys of the gait come to */
+  ambulo__phase_kind by_speed[AMBULO__PHASES];
+  double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
+  double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */
+  double speed_unit;                  /* sqrt(g H), m/s */
+  double radians;                     /* per unit of `angles`; 0: not stated */
+  int written_for;                    /* numbers of the file are those of another body
+                                       * (definitions/problem_written_for.c)
+                                       */
+  double longer, heavier;             /* than that body: ratios of statures and masses; 1 without */
+} ambulo__problem_keys;
+
+struct ambulo__free_section;
+
+struct ambulo_problem {
+  ambulo_allocator allocator;
+  ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
+  ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
+  ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
+  ambulo_model *extended_model; /* `model` where capsules have rows (problem/bodies.c); else NULL */
+  ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
+  char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
+  struct ambulo__free_section
+      *free;                     /* one block (definitions/problem_free.h); NULL: nothing is free */
+  const ambulo_problem *extends; /* what this one extends (problem/extend.c); NULL: none */
+  ambulo_problem *owned_base;    /* freed with the problem; NULL if the caller owns it */
+  const ambulo_model *model;
+  ambulo__plan *plan;
+  const ambulo__kernels *kernels;
+  ambulo__basis *basis;
+  ambulo__lane_map *map;
+  ambulo__channels channels;
+  int coordinates, control_points, variables;
+  int nodes, blocks;
+  double *times;      /* [nodes], s; not equally spaced in general */
+  double *quadrature; /* [nodes], trapezoidal weights, s */
+  int *active;        /* [nodes][feet] contact index or -1 */
+  int *before;        /* [nodes][feet] just before the node; NULL but for grids on events */
+  double *ground;     /* [blocks][entries][8], problem/ground.c; NULL without ground reaction */
+  ambulo__devices *devices; /* NULL without */
+  ambulo__holds *holds;     /* NULL without */
+  size_t taken_at;          /* of the kernels' scratch (ambulo__plan_take_wrench); 0: no contacts */
+  double *told; /* [blocks][devices and holds][8], contact/load_profile.h; NULL without */
+  ambulo__row_table table;
+  ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
+  int rows, equalities;
+  ambulo__problem_keys keys;
+  unsigned long long hash;
+};
+
+/* What the problem is without all that it was extended by. */
+static inline const ambulo_problem *ambulo__problem_root(const ambulo_problem *problem) {
+  while (problem->extends) problem = problem->extends;
+  return problem;
+}
+
+struct ambulo_workspace {
+  ambulo_allocator allocator;
+  const ambulo_problem *problem;
+  int channel_count;
+  double *x;                    /* [variables]: the point the rest belongs to */
+  int has_values, has_jacobian; /* channels / channel Jacobians are those of x */
+  double *channel;              /* [blocks][channels][8] */
+  double *weight;               /* [blocks][channels][8]: adjoint of channel */
+  double *term_slope;           /* [blocks][channels][8]: of the objective's terms, but for those of
+                                   the caller, by channel; with has_values */
+  double *gradient_lanes;       /* [3][d][8]: a block's gq, gqd, gqdd */
+  double *scratch;              /* kernels' scratch, one block at a time */
+  double *jq, *jqd, *jqdd;      /* [blocks][pattern entries][8] */
+  double *row_value;            /* [rows] */
+  double *term_value;           /* [terms] */
+  double objective;
+  double *user_gradient;  /* [user row instances][channels]: slopes of user rows */
+  int *user_slot;         /* [rows]: index into user_gradient, or -1 */
+  double *node_state;     /* scratch for callbacks: [2][channels] */
+  double *motion_scratch; /* ... for one gradient by q, qd, qdd: [3][d] */
+  double *other_scratch;  /* ... for what devices and hands add to it */
+  double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
+                             without ground reaction */
+  double *device_scratch; /* ambulo__room; NULL without devices and holds */
+  double *device_kept;    /* [nodes][ambulo__devices_entries] */
+  double *hold_kept;      /* [nodes][ambulo__holds_entries] */
+  double *bare_force;     /* [nodes][3][d]: of the bodies' own root force by qdd, where `wrench` has
+                             what is held too; NULL without holds */
+  ambulo_fault fault;     /* of the last E_NUMERIC */
+  double *fault_scratch;  /* [variables]: while it is looked for */
+  long evaluations, jacobians;
+  double seconds_evaluate;
+};
+
+/* Longest text of ambulo_fault_text. */
+#define AMBULO__FAULT_TEXT 640
+
+/* A workspace without room for Jacobians: values, gradients by reverse sweep, motions. E_MEMORY. */
+ambulo_status ambulo__workspace_create_for_values(const ambulo_problem *problem,
+                                                  const ambulo_allocator *allocator,
+                                                  ambulo_workspace **workspace);
+
+/* ------------------------------------------------------------- evaluation */
+
+/* Channels, objective and rows at x; nothing if x is the point already held.
+ * E_NUMERIC if a value is not finite (the workspace then holds no point; workspace->fault). */
+ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x);
+/* Also the channel Jacobians. */
+ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x);
+
+/* After ambulo__evaluate: gradient of objective_weight * J + sum_r weights[r] c_r. E_NUMERIC if an
+ * entry is not finite (workspace->fault). */
+ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
+                               const double *row_weights, double *gradient);
+
+/* After ambulo__evaluate: gradient of one objective term (its weight included). E_NUMERIC. */
+ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient);
+
+/* ---------------------------------------------------------- ground reaction */
+
+/* What the kernels are told about the ground at `count` times, [blocks][entries][8]; freed with
+ * ambulo__free_aligned. *ground is NULL without ground reaction. E_MEMORY. */
+ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_allocator *allocator,
+                                  const double *times, int count, double **ground);
+/* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN
+ * for a foot in the air. */
+void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
+/* What a foot or a patch is given: force, centre of pressure (NaN where the ground does not push),
+ * moment about the normal there, moment about the world's origin; N, m, N m. */
+typedef struct ambulo__pressure {
+  double force[3], center[3], free_moment, moment[3];
+} ambulo__pressure;
+/* Of a foot or a patch (contact/effector.h) where contacts share the load, at `time`, from the
+ * channels of a node (`channel`: of the first, in the lanes). */
+ambulo__pressure ambulo__contact_pressure(const ambulo_problem *problem,
+                                          const ambulo__foot_outline *outlines, int effector,
+                                          double time, const double *channel);
+/* The entries of one block, NULL without ground reaction. */
+static inline const double *ambulo__ground_block(const ambulo_problem *problem,
+                                                 const double *ground, int block) {
+  size_t entries = (size_t)ambulo__plan_ground_entries(problem->plan);
+  return ground ? ground + (size_t)block * entries * AMBULO__LANES : NULL;
+}
+
+/* The outputs of a block of nodes from its q, qd and qdd, the first channels: inverse dynamics and
+ * what the devices leave of it. `ground` and `told` are the problem's or of other times; the
+ * scratch is the kernels', the room of ambulo__room (may be NULL without devices and holds). */
+void ambulo__mechanics_block(const ambulo_problem *problem, const double *ground,
+                             const double *told, int block, double *channel, double *scratch,
+                             double *room);
+size_t ambulo__room(const ambulo_problem *problem);
+/* Entries of `told` at a time. */
+static inline int ambulo__told_entries(const ambulo_problem *problem) {
+  return problem->channels.devices + problem->definition.hold_count;
+}
+/* A block of `told`; NULL without. */
+static inline const double *ambulo__told_block(const ambulo_problem *problem, const double *told,
+                                               int block) {
+  return told ? told + (size_t)block * (size_t)ambulo__told_entries(problem) * AMBULO__LANES : NULL;
+}
+
+/* ------------------------------------------------------------- local rows */
+
+/* Entries of workspace->wrench per node and order. */
+int ambulo__wrench_entries(const ambulo_problem *problem);
+/* Fills it for a block whose Jacobians are there. */
+void ambulo__wrench_gather(ambulo_workspace *workspace, int block);
+/* After ambulo__evaluate_jacobian: gradient[3][d] of an output of the mechanics
+ * (mechanics/plan.h) at a node by q, qd and qdd. */
+void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
+                             double *gradient);
+/* The same times a factor, added. */
+void ambulo__output_add(const ambulo_workspace *workspace, int node, int output, double times,
+                        double *gradient);
+/* After ambulo__evaluate_jacobian: slopes[3][d] of a row by q, qd and qdd of its node (local rows
+ * only). */
+void ambulo__row_slopes(const ambulo_workspace *workspace, int row, double *slopes);
+/* How many of q, qd and qdd a channel depends on: 1, q only, or 3. */
+int ambulo__channel_orders(const ambulo_problem *problem, int channel);
+/* After ambulo__evaluate_jacobian: gradient of row r with respect to the local
+ * unknowns of its node (local rows only): gradient[span * d], zero-filled first. */
+void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient);
+/* Gradient of one channel at one node with respect to the node's local unknowns. */
+void ambulo__channel_local_gradient(const ambulo_workspace *workspace, int node, int channel,
+                                    double *gradient);
+/* Gradient of any row added into a dense vector [variables], times `factor`. */
+void ambulo__row_add_gradient(const ambulo_workspace *workspace, int row, double factor,
+                              double *gradient);
+
+/* The last node at or before `time` (within 1e-9 s), at most the last but one; with the node after
+ * it, and the place between the two, 0 to 1. */
+int ambulo__node_at(const ambulo_problem *problem, double time, double *between);
+
+/* First local unknown of a node and their number. */
+static inline int ambulo__node_first(const ambulo_problem *p, int node) {
+  return ambulo__lane_map_points(p->map)[node].first * p->coordinates;
+}
+static inline int ambulo__node_width(const ambulo_problem *p, int node) {
+  return ambulo__lane_map_points(p->map)[node].span * p->coordinates;
+}
+/* 1 if all terms of the row stand on one node. */
+static inline int ambulo__row_is_local(const ambulo_problem *p, int row) {
+  return p->table.rows[row].node >= 0;
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* solver/dense.h - what happens between the time nodes.
+ *
+ * Rows are enforced at the nodes. Here the same motion is looked at on a grid `samples` times as
+ * fine: every row that such a grid would have, and two quantities that no row covers,
+ *
+ *   slip          how far a loaded point of a foot moves along the ground away from where the
+ *                 nodes have it (dense_slip.c)
+ *   ground_force  how far the ground's normal force is from the straight line through its
+ *                 values at the nodes (dense_force.c)
+ *
+ * Each quantity is a sample: a rule (its family and unit, dense_rules.c), a place, a time, a value
+ * and the tolerance that holds there. Value / tolerance makes them comparable: the ratio.
+ *
+ *   dense_grid.c     the finer grid; the motion there
+ *   dense_rows.c, dense_slip.c, dense_force.c    samples
+ *   dense_worst.c    the worst sample of each rule
+ *   dense_events.c   where nodes fall beside the times at which contacts change
+ *   dense_cure.c     the intervals that would bring it under its tolerance
+ *   dense_words.c    all of it in words
+ *   dense_audit.c    the steps in order
+ */
+#ifndef AMBULO_SOLVER_DENSE_H
+#define AMBULO_SOLVER_DENSE_H
+
+#include "contact/phases.h"
+#include "problem/nlp.h"
+#include "solver/dense_rules.h"
+
+#include <math.h>
+
+/* The motion x on a finer grid. */
+typedef struct ambulo__dense {
+  ambulo_allocator allocator;
+  const ambulo_problem *problem; /* whose nodes count */
+  ambulo_problem *fine;          /* the same trajectory and rows, `samples` times the intervals */
+  int samples;                   /* per interval */
+  double *channel;               /* [blocks of fine][channels][8] */
+  double *row_value;             /* [rows of fine]; only rows on one node */
+} ambulo__dense;
+
+/* `samples`, or as many as a problem may have intervals for; 1: there is no finer grid. */
+int ambulo__dense_samples(const ambulo_problem *problem, int samples);
+
+/* Evaluates x on a grid that many times as fine. Events of contacts inside (0, T) are moved by
+ * `shift` s (0: as they are; less than any is from an end). E_PROBLEM, with the reason in
+ * diagnostics: there is no such grid; E_MEMORY. Values may be infinite or NaN. */
+ambulo_status ambulo__dense_open(const ambulo_problem *problem, const double *x, int samples,
+                                 double shift, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo__dense *dense);
+void ambulo__dense_close(ambulo__dense *dense);
+
+static inline double ambulo__dense_channel(const ambulo__dense *dense, int node, int channel) {
+  int channels = ambulo__channel_count(&dense->problem->channels);
+  return dense->channel[ambulo__lane_index(node, channels, channel)];
+}
+
+/* One value at one time. Names are static or live in the model. */
+typedef struct ambulo__dense_sample {
+  int rule; /* dense_rules.h */
+  const char *family, *subject, *detail, *unit;
+  double time, value, tolerance; /* in unit; value >= 0, or not finite */
+} ambulo__dense_sample;
+
+/* value / tolerance; NaN where the value is not finite */
+static inline double ambulo__dense_ratio(const ambulo__dense_sample *sample) {
+  return sample->value * 0.0 == 0.0 ? sample->value / sample->tolerance : (double)NAN;
+}
+
+typedef void (*ambulo__dense_visitor)(void *user, const ambulo__dense_sample *sample);
+
+/* Violations of the rows that stand on one node; rows on the ends are the same on every grid. */
+void ambulo__dense_rows(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
+/* Of each loaded point of each foot. */
+void ambulo__dense_slip(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
+/* Of all contacts together and, with ground reaction, of each foot; nothing without contacts. */
+void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
+
+/* ------------------------------------------------------------------ events */
+
+/* On an equally spaced grid: from the last of `intervals` + 1 nodes before the event to the event,
+ * s: a contact that ends there is not held at a node on the event itself. */
+double ambulo__dense_gap_before(double event, double duration, int intervals);
+/* From the event to the first node at or after it. */
+double ambulo__dense_gap_after(double event, double duration, int intervals);
+/* 1 if the interval around `time` has an event after its first node, up to its last. */
+int ambulo__dense_near_event(const ambulo__events *events, double time, double duration,
+                             int intervals);
+
+/* 1 if a problem's nodes leave a gap beside an event, and `time` lies in the interval of that
+ * event; on a grid on events only where the event is no node. */
+int ambulo__dense_beside_event(const ambulo_problem *problem, const ambulo__events *events,
+                               double time);
+
+/* ------------------------------------------------------------------- worst */
+
+typedef struct ambulo__dense_entry {
+  int present;                 /* some sample follows this rule */
+  ambulo__dense_sample sample; /* the worst, by its ratio; NaN is worse than any number */
+  double ratio;
+  double between; /* worst ratio in intervals without an event */
+} ambulo__dense_entry;
+
+typedef struct ambulo__dense_worst {
+  ambulo__dense_entry entry[AMBULO__DENSE_RULES];
+} ambulo__dense_worst;
+
+void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__events *events,
+                            ambulo__dense_worst *worst);
+
+/* -------------------------------------------------------------------- cure */
+
+/* How many intervals bring which rule under its tolerance, as far as can be foretold. */
+typedef struct ambulo__dense_cure {
+  int intervals, spline_intervals;       /* 0: no number that is foretold helps any */
+  int cured[AMBULO__DENSE_RULES];        /* 1: `intervals` are enough */
+  int out_of_reach[AMBULO__DENSE_RULES]; /* 1: more intervals help, but not as few as are tried */
+} ambulo__dense_cure;
+
+/* 1: contacts are equations, so that the trajectory needs about as many intervals as time */
+int ambulo__dense_is_strict(const ambulo_problem *problem);
+/* trajectory.intervals that go with `intervals` time intervals */
+int ambulo__dense_spline_intervals(const ambulo_problem *problem, int intervals);
+
+ambulo_status ambulo__dense_cure_find(const ambulo_problem *problem, const double *x,
+                                      const ambulo__events *events,
+                                      const ambulo__dense_worst *worst,
+                                      const ambulo_allocator *allocator, ambulo__dense_cure *cure);
+
+#endif

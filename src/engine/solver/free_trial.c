@@ -1,0 +1,180 @@
+/* solver/free_trial.c - one inner solve of a run over free parameters.
+ *
+ * It starts from the best solution so far, whose control points are those of another duration or of
+ * other footholds: the same motion, stretched. Where that leads to no optimal motion, a solve from
+ * zero has the last word: a valley may end between the two values.
+ */
+#include "solver/free_search.h"
+#include "base/clock.h"
+#include "base/diagnostics.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double close_to_bound = 1e-6; /* of the width */
+static const double least_travel = 1e-9;   /* m: below it nothing is per distance */
+
+static double elapsed(const ambulo__outer *run) {
+  return ambulo__seconds_now() - run->started;
+}
+
+int ambulo__outer_over(ambulo__outer *run) {
+  const ambulo_options *o = &run->options;
+  if (run->ending != AMBULO_ENDING_NONE) return 1;
+  if (o->time_limit > 0.0 && elapsed(run) >= o->time_limit)
+    run->ending = AMBULO_ENDING_TIME;
+  else if (run->solves >= run->parameters.maximum_solves)
+    run->ending = AMBULO_ENDING_SOLVES;
+  return run->ending != AMBULO_ENDING_NONE;
+}
+
+int ambulo__outer_bound(const ambulo__outer *run, const double *value, int i) {
+  const ambulo_parameter *item = &run->parameters.items[i];
+  double slack = close_to_bound * (item->upper - item->lower);
+  return value[i] <= item->lower + slack ? -1 : value[i] >= item->upper - slack;
+}
+
+void ambulo__outer_drop(ambulo__outer_trial *trial) {
+  ambulo_result_free(trial->result);
+  ambulo_problem_free(trial->problem);
+  ambulo_diagnostics_free(trial->messages);
+  trial->result = NULL;
+  trial->problem = NULL;
+  trial->messages = NULL;
+}
+
+/* the caller's callback sees one run */
+static int show(void *user, const ambulo_progress *inner) {
+  ambulo__outer *run = user;
+  ambulo_progress progress = *inner;
+  progress.seconds = elapsed(run);
+  progress.time_limit = run->options.time_limit;
+  progress.solve = run->solves;
+  progress.best = run->best.result && isfinite(run->best.objective) ? run->best.objective : NAN;
+  if (!run->options.progress || !run->options.progress(run->options.user, &progress)) return 0;
+  run->ending = AMBULO_ENDING_CALLER;
+  return 1;
+}
+
+/* ------------------------------------------------------------------ objective */
+
+static const ambulo_sensitivity *find(const ambulo_sensitivity_list *list, const char *name) {
+  for (int i = 0; i < list->count; i++)
+    if (strcmp(list->items[i].name, name) == 0) return &list->items[i];
+  return NULL;
+}
+
+/* a limit that the motion does not touch has no sensitivity; what else has none is at a kink */
+static int is_limit(const char *name) {
+  return strncmp(name, "model.", 6) == 0;
+}
+
+/* dF/dp = (df*_dp - F dD/dp) / D; returns 0 at a kink */
+static int take_gradient(const ambulo__outer *run, ambulo__outer_trial *t,
+                         const ambulo_sensitivity_list *list) {
+  int per_distance = run->parameters.per == AMBULO_PER_DISTANCE;
+  for (int i = 0; i < run->parameters.count; i++) {
+    const ambulo_sensitivity *s = find(list, run->parameters.items[i].name);
+    double travel = s && per_distance ? s->travel : 0.0;
+    double sign = t->problem->definition.travel < 0.0 ? -1.0 : 1.0;
+    t->gradient[i] = s ? (s->derivative - t->objective * sign * travel) / t->distance : 0.0;
+    if (!s && !is_limit(run->parameters.items[i].name)) return 0;
+  }
+  return 1;
+}
+
+static ambulo_status value_of(ambulo__outer *run, ambulo__outer_trial *t) {
+  ambulo_sensitivity_list *list = NULL;
+  int per_distance = run->parameters.per == AMBULO_PER_DISTANCE;
+  t->distance = per_distance ? fabs(t->problem->definition.travel) : 1.0;
+  if (t->distance < least_travel) return AMBULO_OK;
+  ambulo_status status =
+      ambulo__sensitivities_nearly(t->problem, t->result, &run->allocator, &list);
+  if (status == AMBULO_E_NUMERIC) return AMBULO_OK;
+  if (status) return status;
+  t->objective = ambulo_result_objective(t->result) / t->distance;
+  if (!take_gradient(run, t, list)) t->objective = HUGE_VAL; /* given up: no way on from there */
+  ambulo_sensitivities_free(list);
+  return AMBULO_OK;
+}
+
+/* -------------------------------------------------------------------- solving */
+
+static ambulo_status build(ambulo__outer *run, ambulo__outer_trial *t) {
+  const ambulo_parameters *p = &run->parameters;
+  t->messages = run->diagnostics ? ambulo_diagnostics_create(&run->allocator) : NULL;
+  if (run->diagnostics && !t->messages) return AMBULO_E_MEMORY;
+  if (p->problem_at)
+    return p->problem_at(p->user, t->value, &run->allocator, t->messages, &t->problem);
+  return ambulo_problem_at(run->problem, t->value, &run->allocator, t->messages, &t->problem);
+}
+
+static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, const double *start) {
+  ambulo_options options = run->options;
+  ambulo_result *result = NULL;
+  options.progress = show;
+  options.user = run;
+  if (options.time_limit > 0.0) options.time_limit = fmax(1e-3, options.time_limit - elapsed(run));
+  ambulo_diagnostics_clear(t->messages);
+  ambulo_status status =
+      ambulo_solve(t->problem, &options, start, &run->allocator, t->messages, &result);
+  if (status) return status;
+  run->evaluations += ambulo_result_evaluations(result);
+  ambulo_result_free(t->result);
+  t->result = result;
+  return AMBULO_OK;
+}
+
+static int is_optimal(const ambulo__outer_trial *t) {
+  return t->result && ambulo_result_verdict(t->result) == AMBULO_OPTIMAL;
+}
+
+/* a run that has nothing optimal yet goes on from a motion that holds */
+static int counts(const ambulo__outer *run, const ambulo__outer_trial *t) {
+  if (is_optimal(t)) return 1;
+  return !is_optimal(&run->best) && ambulo_result_verdict(t->result) == AMBULO_FEASIBLE;
+}
+
+static ambulo_status solve(ambulo__outer *run, ambulo__outer_trial *t) {
+  const double *start = run->best.result ? ambulo_result_x(run->best.result) : run->start;
+  ambulo_status status = solve_from(run, t, start);
+  if (status || is_optimal(t) || !run->best.result || ambulo__outer_over(run)) return status;
+  return solve_from(run, t, NULL);
+}
+
+/* a failure that is about the values, not about the run */
+static int is_about_values(const ambulo__outer *run, ambulo_status status) {
+  if (run->solves == 1) return 0;
+  return status == AMBULO_E_PROBLEM || status == AMBULO_E_NUMERIC || status == AMBULO_E_SCHEMA ||
+         status == AMBULO_E_MODEL;
+}
+
+static int same_unknowns(const ambulo__outer *run, const ambulo__outer_trial *t) {
+  return ambulo_problem_variable_count(t->problem) == ambulo_problem_variable_count(run->problem);
+}
+
+/* by a limit of the run or the caller: it says nothing about the values */
+static int was_cut(const ambulo__outer_trial *t) {
+  if (!t->result) return 0;
+  ambulo_ending ending = ambulo_result_ending_code(t->result);
+  return ending == AMBULO_ENDING_TIME || ending == AMBULO_ENDING_CALLER;
+}
+
+ambulo_status ambulo__outer_try(ambulo__outer *run) {
+  ambulo__outer_trial *t = &run->latest;
+  ambulo__outer_drop(t);
+  t->objective = HUGE_VAL;
+  memset(t->gradient, 0, (size_t)run->parameters.count * sizeof *t->gradient);
+  run->solves++;
+  ambulo_status status = build(run, t);
+  if (!status && !same_unknowns(run, t))
+    status = ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                           "problem_at made a problem of %d unknowns; expected %d",
+                           ambulo_problem_variable_count(t->problem),
+                           ambulo_problem_variable_count(run->problem));
+  if (!status) status = solve(run, t);
+  if (!status && counts(run, t)) status = value_of(run, t);
+  if (status && is_about_values(run, status)) status = AMBULO_OK;
+  if (!(t->objective < HUGE_VAL) && !was_cut(t)) run->failed++;
+  return status;
+}

@@ -1,0 +1,180 @@
+/* solver/solver.c - a solve from one start: which method, from which start, and which point is the
+ * best.
+ *
+ *   presolve off     NLopt's SLSQP or AUGLAG on the rows as they are     (nlopt_plain.c)
+ *   small problems   SLSQP in whitened coordinates                       (nlopt_whitened.c)
+ *   otherwise        NLopt's AUGLAG on the equalities' surface           (pipeline.c),
+ *                    from coarser grids when it starts at zero           (refine.c)
+ *
+ * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no
+ * solution the solver tries its own, zero, before it explains anything; and a result is never worse
+ * than a start that was valid: of all points the best is kept (candidates.c).
+ *
+ * Reading order: solve.c, starts.h, solver.c, session.h, session.c, options.h, memory.h, better.h,
+ * audit_point.c; what they call: method/pipeline.c, method/refine.c, solver/audit.c.
+ */
+#include "solver/better.h"
+#include "solver/session.h"
+#include "method/finisher.h"
+#include "method/nlopt_direct.h"
+#include "method/pipeline.h"
+#include "method/refine.h"
+#include "method/smooth.h"
+#include "problem/problem.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+  SMALL = 60,      /* unknowns: SLSQP first */
+  SMALL_ROUNDS = 8 /* of it, before AUGLAG takes over what has not settled */
+};
+static const double near_rows = 1e-3; /* relative to their sizes */
+
+/* ---------------------------------------------------------------- strategies */
+
+/* the coarse grids led astray: once more from zero; x stays if that is no better */
+static ambulo_status solve_again(ambulo__session *s, double *x) {
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  size_t n = (size_t)s->problem->variables;
+  double *other = ambulo__alloc(&a, n, sizeof *other);
+  if (!other) return AMBULO_E_MEMORY;
+  ambulo__start_pose(s->problem, other);
+  ambulo_ending before = s->run.ending;
+  double violation = ambulo__violation_at(s->engine, x);
+  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__FAR, other);
+  if (!status && ambulo__violation_at(s->engine, other) < violation) {
+    memcpy(x, other, n * sizeof *x);
+  } else {
+    ambulo__run_end(&s->run, before);
+  }
+  ambulo__free(&a, other);
+  return status;
+}
+
+static ambulo_status finish_by_slsqp(ambulo__session *s, double *x) {
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  size_t n = (size_t)s->problem->variables;
+  if (n > AMBULO__FINISHER_UNKNOWNS) {
+    ambulo__note(s->diagnostics, ambulo__nowhere,
+                 "finisher: slsqp left out: %zu unknowns are more than %d", n,
+                 AMBULO__FINISHER_UNKNOWNS);
+    return AMBULO_OK;
+  }
+  double *other = ambulo__alloc(&a, n, sizeof *other);
+  if (!other) return AMBULO_E_MEMORY;
+  memcpy(other, x, n * sizeof *x);
+  const char *message = NULL;
+  int better = 0;
+  ambulo_status status = ambulo__finish(s->engine, other, &message);
+  if (!status)
+    status = ambulo__is_better(s->problem, s->run.options, x, other, s->allocator, &better);
+  if (better) {
+    memcpy(x, other, n * sizeof *x);
+    s->method = "NLopt's AUGLAG with LBFGS, then SLSQP";
+    s->nlopt = message;
+  }
+  ambulo__free(&a, other);
+  return status;
+}
+
+static ambulo__stage stage_of(ambulo__session *s, const double *x) {
+  int near = !s->from_zero && ambulo__violation_at(s->engine, x) <= near_rows;
+  return near ? AMBULO__NEAR : AMBULO__FAR;
+}
+
+static ambulo_status solve_by_pipeline(ambulo__session *s) {
+  const ambulo_options *o = s->run.options;
+  double *x = s->result->x;
+  int levels = 0;
+  ambulo_status status = AMBULO_OK;
+  s->method = "NLopt's AUGLAG with LBFGS";
+  s->run.stage = "coarse grids";
+  if (s->from_zero && o->continuation) status = ambulo__refine(s->engine, s->allocator, x, &levels);
+  s->run.stage = "solve";
+  if (!status) status = ambulo__pipeline(s->engine, stage_of(s, x), x);
+  if (!status && levels > 0 && !s->run.stopped &&
+      !(ambulo__violation_at(s->engine, x) <= o->feasibility_tolerance))
+    status = solve_again(s, x);
+  if (status || s->run.stopped || o->finisher != AMBULO_FINISHER_SLSQP) return status;
+  return finish_by_slsqp(s, x);
+}
+
+static ambulo_status solve_small(ambulo__session *s, ambulo_algorithm algorithm, int most) {
+  s->method = algorithm == AMBULO_SLSQP ? "NLopt's SLSQP, whitened"
+                                        : "NLopt's AUGLAG with LBFGS, whitened, all rows";
+  if (most > s->run.options->maximum_iterations) most = s->run.options->maximum_iterations;
+  return ambulo__solve_whitened(s->engine, algorithm, most, s->diagnostics, s->result->x,
+                                &s->nlopt);
+}
+
+static ambulo_status solve_presolved(ambulo__session *s) {
+  const ambulo_options *o = s->run.options;
+  int small = s->problem->variables < SMALL;
+  if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP, INT_MAX);
+  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->setup->rows->regular;
+  if (all_rows) return solve_small(s, AMBULO_AUGLAG, INT_MAX);
+  if (o->algorithm == AMBULO_AUGLAG || !small) return solve_by_pipeline(s);
+  ambulo_status status = solve_small(s, AMBULO_SLSQP, SMALL_ROUNDS);
+  if (status || s->run.stopped || s->run.ending == AMBULO_ENDING_SETTLED) return status;
+  ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
+  s->nlopt = NULL;
+  return solve_by_pipeline(s);
+}
+
+static ambulo_status solve_problem(ambulo__session *s) {
+  const ambulo_options *o = s->run.options;
+  s->nlopt = NULL;
+  if (o->presolve) return solve_presolved(s);
+  ambulo_algorithm algorithm = o->algorithm == AMBULO_AUGLAG ? AMBULO_AUGLAG : AMBULO_SLSQP;
+  s->method =
+      algorithm == AMBULO_AUGLAG ? "NLopt's AUGLAG with LBFGS, plain" : "NLopt's SLSQP, plain";
+  return ambulo__solve_plain(s->engine, algorithm, s->diagnostics, s->result->x, &s->nlopt);
+}
+
+/* an attempt from where result->x stands; what it finds joins the candidates */
+static ambulo_status attempt(ambulo__session *s) {
+  ambulo_status status = solve_problem(s);
+  if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
+  if (!status) ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
+  return status;
+}
+
+/* from zero; or from the caller's start, and from zero when that leads nowhere */
+static ambulo_status search(ambulo__session *s) {
+  double *x = s->result->x;
+  ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
+  if (status) return status;
+  if (s->start) {
+    int smoothed = 0;
+    ambulo__candidates_offer_start(&s->candidates, s->engine, x);
+    if (s->run.options->presolve) status = ambulo__smooth_start(s->engine, x, &smoothed);
+  }
+  if (!status) status = attempt(s);
+  if (status) return status;
+  if (s->start && !ambulo__candidates_solved(&s->candidates) && !ambulo__run_over(&s->run)) {
+    ambulo__start_pose(s->problem, x);
+    s->from_zero = 1;
+    s->note = "; from zero, since the given start led to no solution";
+    status = attempt(s);
+    if (status) return status;
+  }
+  if (ambulo__candidates_take(&s->candidates, x))
+    s->note = "; what it found was worse than the given start, which is returned";
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__solve_once(const ambulo_problem *problem, const ambulo_options *options,
+                                 const double *start, int explains,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo_result **result) {
+  ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  s.errors = ambulo_diagnostics_error_count(diagnostics);
+  s.explains = explains;
+  ambulo_status status = ambulo__session_begin(&s, options, start);
+  if (!status && s.engine) status = search(&s);
+  if (!status) status = ambulo__session_finish(&s);
+  return ambulo__session_end(&s, status, result);
+}

@@ -1,0 +1,221 @@
+/* exchange/export.c - ambulo_export: a model and a motion for another program.
+ *
+ * Reading order: bodies.h, osim_text.c, urdf_text.c, motion_source.h, loads.h, device_loads.c,
+ * opensim_motion.c, free_base.h, npz_motion.c, npz.h.
+ */
+#include "ambulo/export.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sized.h"
+#include "formats/atomic_file.h"
+#include "formats/output_check.h"
+#include "exchange/npz_motion.h"
+#include "exchange/texts.h"
+
+static const char *const file_names[] = {"model.osim", "motion.mot", "grf.mot",
+                                         "external_loads.xml"};
+static const ambulo__folder_mark mark = {"model.osim", AMBULO__XML_MARK, file_names,
+                                         sizeof file_names / sizeof *file_names};
+
+/* what one export needs */
+typedef struct job {
+  const ambulo_model *model;
+  const char *motion, *output;
+  const ambulo_export_options *options;
+  const ambulo_allocator *allocator;
+  ambulo_diagnostics *diagnostics;
+  ambulo__bodies bodies;
+  ambulo__source source;
+  ambulo__loads loads;
+  ambulo__text_buffer text;
+} job;
+
+AMBULO__FILL(ambulo_export_options, {.size = size, .format = AMBULO_EXPORT_OPENSIM})
+
+/* ------------------------------------------------------------------------ refusals */
+
+static ambulo_status check_names(const job *j, const char *own) {
+  for (int i = 0; i < j->model->link_count; i++)
+    if (strcmp(j->model->links[i].name, own) == 0)
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "a link is named '%s', as the other program's world is; expected "
+                           "another name",
+                           own);
+  return AMBULO_OK;
+}
+
+/* links and coordinates; masses may be others, and points more (a problem's may have some on its
+ * capsules) */
+static int same_body(const ambulo_model *a, const ambulo_model *b) {
+  if (a->link_count != b->link_count || a->coordinate_count != b->coordinate_count) return 0;
+  for (int i = 0; i < a->link_count; i++)
+    if (strcmp(a->links[i].name, b->links[i].name) != 0) return 0;
+  return a->foot_count == b->foot_count && a->patch_count == b->patch_count;
+}
+
+static ambulo_status check_asked(const job *j) {
+  ambulo_export_format format = j->options->format;
+  if (format == AMBULO_EXPORT_NPZ && !j->motion)
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
+                         "--format urdf writes the model alone",
+                         "an .npz holds a motion, and none is given");
+  if (format == AMBULO_EXPORT_URDF && j->motion)
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
+                         "--format npz writes the motion", "a URDF holds no motion");
+  if (j->options->problem && !same_body(j->model, j->options->problem->model))
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "the problem is one of another body, '%s'; expected the model's",
+                         j->options->problem->model->name);
+  if (j->options->free_root && format != AMBULO_EXPORT_URDF)
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "a free root is a choice of URDF alone");
+  if (j->options->free_root && ambulo__free_root(j->model) < 0)
+    return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                         "the root is no free body: its first joints are actuated, or branch "
+                         "before any mass; expected coordinates with actuated: false");
+  return check_names(j, format == AMBULO_EXPORT_OPENSIM ? "ground" : "world");
+}
+
+/* --------------------------------------------------------------------- what is lost */
+
+static void tell_gravity(const job *j) {
+  double g[3];
+  ambulo__rigid_vector(&j->bodies.world, j->model->gravity, g);
+  if (g[0] == 0.0 && g[1] == 0.0 && g[2] == -9.81) return;
+  ambulo__warning(j->diagnostics, ambulo__nowhere, NULL,
+                  "a URDF says nothing of gravity: it is %g %g %g m/s^2 in its axes", g[0], g[1],
+                  g[2]);
+}
+
+static void tell_limits(const job *j) {
+  int uneven = 0;
+  const char *first = "";
+  for (int i = j->model->coordinate_count - 1; i >= 0; i--) {
+    const ambulo_coordinate *c = &j->model->coordinates[i];
+    if (c->torque[0] == -c->torque[1] && c->speed[0] == -c->speed[1]) continue;
+    uneven++;
+    first = c->name;
+  }
+  if (uneven)
+    ambulo__warning(j->diagnostics, ambulo__nowhere, NULL,
+                    "limits of torque or speed of %d coordinates ('%s') differ by direction: a "
+                    "URDF has one of each, the larger",
+                    uneven, first);
+}
+
+/* ------------------------------------------------------------------------- writing */
+
+static ambulo_status write_single(job *j) {
+  ambulo_status status = ambulo__text_status(&j->text);
+  if (status) return status;
+  return ambulo__write_file(j->output, ambulo__text_data(&j->text), j->text.length, 1, j->allocator,
+                            j->diagnostics);
+}
+
+static void print_file(job *j, int file) {
+  switch (file) {
+  case 0:
+    ambulo__export_osim(&j->bodies, &j->text);
+    break;
+  case 1:
+    ambulo__mot_text(&j->bodies, &j->source, &j->text);
+    break;
+  case 2:
+    ambulo__grf_text(&j->bodies, j->source.time, &j->loads, &j->text);
+    break;
+  default:
+    ambulo__external_loads_text(&j->bodies, &j->loads, &j->text);
+  }
+}
+
+/* a folder, whole or not at all */
+static ambulo_status write_folder(job *j) {
+  ambulo__folder *folder = NULL;
+  ambulo_status status = ambulo__folder_begin(j->output, j->options->overwrite ? &mark : NULL,
+                                              j->allocator, j->diagnostics, &folder);
+  if (status) return status;
+  for (int i = 0; !status && i < (j->loads.count ? 4 : 2); i++) {
+    ambulo__text_clear(&j->text);
+    print_file(j, i);
+    status = ambulo__text_status(&j->text);
+    if (!status)
+      status = ambulo__folder_write(folder, file_names[i], ambulo__text_data(&j->text),
+                                    j->text.length, j->diagnostics);
+  }
+  if (!status) return ambulo__folder_commit(folder, j->diagnostics);
+  ambulo__folder_abort(folder);
+  return status;
+}
+
+static ambulo_status add_loads(job *j) {
+  return ambulo__loads_create(&j->bodies, j->options->problem, &j->source, j->diagnostics,
+                              &j->loads);
+}
+
+static ambulo_status write_format(job *j) {
+  ambulo_status status = AMBULO_OK;
+  switch (j->options->format) {
+  case AMBULO_EXPORT_OPENSIM:
+    status = ambulo__bodies_merged(j->model, j->allocator, &j->bodies);
+    if (!status && j->motion) status = add_loads(j);
+    if (status) return status;
+    if (j->motion) return write_folder(j);
+    ambulo__export_osim(&j->bodies, &j->text);
+    return write_single(j);
+  case AMBULO_EXPORT_URDF:
+    status = ambulo__bodies_single(j->model, j->options->free_root, j->allocator, &j->bodies);
+    if (status) return status;
+    tell_gravity(j);
+    tell_limits(j);
+    ambulo__export_urdf(&j->bodies, &j->text);
+    return write_single(j);
+  case AMBULO_EXPORT_NPZ:
+  case AMBULO_EXPORT_FORMAT_NOT_SET:
+    break;
+  }
+  status = ambulo__bodies_single(j->model, 1, j->allocator, &j->bodies);
+  if (!status) status = add_loads(j);
+  if (!status) status = ambulo__npz_motion(&j->bodies, &j->source, &j->loads, &j->text);
+  return status ? status : write_single(j);
+}
+
+static ambulo_status run(job *j) {
+  int folder = j->options->format == AMBULO_EXPORT_OPENSIM && j->motion;
+  ambulo_status status = check_asked(j);
+  if (!status && !folder)
+    status = ambulo__output_check(j->output, &j->motion, 1, j->options->overwrite, j->diagnostics);
+  if (!status && j->motion)
+    status = ambulo__source_read(j->model, j->motion, j->options->inverse,
+                                 ambulo__has_loads(j->options->problem), j->allocator,
+                                 j->diagnostics, &j->source);
+  return status ? status : write_format(j);
+}
+
+ambulo_status ambulo_export(const ambulo_model *model, const char *motion, const char *output,
+                            const ambulo_export_options *options, const ambulo_allocator *allocator,
+                            ambulo_diagnostics *diagnostics) {
+  ambulo_export_options own;
+  if (!model || !output || !output[0] || (motion && !motion[0]) ||
+      !AMBULO__OWN(ambulo_export_options, &own, options))
+    return AMBULO_E_ARGUMENT;
+  if (own.format < AMBULO_EXPORT_OPENSIM || own.format > AMBULO_EXPORT_NPZ)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "the format of an export is %s (got %d); expected an ambulo_export_format",
+                         own.format ? "unknown" : "not set", (int)own.format);
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  job j = {.model = model,
+           .motion = motion,
+           .output = output,
+           .options = &own,
+           .allocator = allocator,
+           .diagnostics = diagnostics};
+  ambulo__text_init(&j.text, allocator);
+  ambulo_status status = run(&j);
+  ambulo__text_free(&j.text);
+  ambulo__loads_free(&j.loads);
+  ambulo__source_free(&j.source);
+  ambulo__bodies_free(&j.bodies);
+  return ambulo__conclude(diagnostics, errors, status, output);
+}

@@ -1,0 +1,162 @@
+/* exchange/import.c - ambulo_import_model: from a file of another program to a model file.
+ *
+ * XML tree -> reader of the format -> body tree -> feet, mirror images -> text, which is read back
+ * as a model before anything is written: what an import gives loads.
+ */
+#include "ambulo/import.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sized.h"
+#include "formats/atomic_file.h"
+#include "formats/output_check.h"
+#include "exchange/formats.h"
+
+AMBULO__FILL(ambulo_import_options, {.size = size})
+
+int ambulo_import_available(void) {
+#ifdef AMBULO_HAS_EXPAT
+  return 1;
+#else
+  return 0;
+#endif
+}
+
+static int options_are_sane(const ambulo_import_options *o) {
+  return o->pose_count >= 0 && o->foot_count >= 0 && o->heel_count >= 0 && o->toe_count >= 0 &&
+         (o->pose || !o->pose_count) && (o->feet || !o->foot_count) &&
+         (o->heels || !o->heel_count) && (o->toes || !o->toe_count) &&
+         o->root >= AMBULO_ROOT_AS_IS && o->root <= AMBULO_ROOT_FIXED;
+}
+
+/* ------------------------------------------------------------------------ reading */
+
+static void read_format(ambulo__tree *tree, ambulo__xml_node *root, const char *path) {
+  static const struct {
+    const char *element;
+    int which;
+  } formats[] = {{"robot", 0}, {"OpenSimDocument", 1}, {"mujoco", 2}};
+  int which = -1;
+  for (int i = 0; i < 3; i++)
+    if (ambulo__xml_is(root, formats[i].element)) which = formats[i].which;
+  if (which == 0) ambulo__read_urdf(tree, root);
+  if (which == 1) ambulo__read_osim(tree, root);
+  if (which == 2) ambulo__read_mjcf(tree, root, path);
+  if (which < 0)
+    ambulo__xml_error(tree->xml, root, AMBULO_E_SCHEMA, NULL,
+                      "this is no model that can be imported (got <%.40s>); expected <robot> "
+                      "(URDF), <OpenSimDocument> or <mujoco>",
+                      root->name);
+}
+
+static void expect_motion(const ambulo__tree *tree, const ambulo__xml_node *root) {
+  int joints = 0;
+  double mass = 0.0;
+  for (int i = 0; i < tree->link_count; i++) {
+    joints += tree->links[i].type != AMBULO_FIXED;
+    mass += tree->links[i].body.mass;
+  }
+  if (tree->xml->status || tree->arena->failed) return;
+  if (joints == 0)
+    ambulo__xml_error(tree->xml, root, AMBULO_E_MODEL, NULL,
+                      "the model cannot move (got %d links, none with a coordinate); expected at "
+                      "least one joint",
+                      tree->link_count);
+  else if (!(mass > 0.0))
+    ambulo__xml_error(tree->xml, root, AMBULO_E_MODEL, NULL,
+                      "the model has no mass; expected at least one body");
+}
+
+static const char *base_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+/* a name as model files have them, of whatever the source has */
+static const char *model_name(ambulo__arena *arena, const char *name) {
+  char *copy = ambulo__arena_copy(arena, name, strlen(name) > 64 ? 64 : strlen(name));
+  for (char *c = copy; c && *c; c++) {
+    int good = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') ||
+               *c == '-' || *c == '.';
+    if (!good) *c = '_';
+  }
+  return copy && copy[0] ? copy : "model";
+}
+
+static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__text_buffer *text) {
+  ambulo__xml *xml = tree->xml;
+  ambulo__xml_node *root = ambulo__xml_load(xml, path);
+  if (!root) return xml->status;
+  tree->path = path;
+  read_format(tree, root, path);
+  expect_motion(tree, root);
+  if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__find_start(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
+  if (xml->status) return xml->status;
+  if (tree->options->name) tree->name = tree->options->name;
+  tree->name = model_name(tree->arena, tree->name);
+  if (!tree->arena->failed) ambulo__tree_print(tree, base_name(path), text);
+  if (tree->arena->failed || ambulo__text_status(text))
+    return ambulo__error(xml->diagnostics, AMBULO_E_MEMORY, ambulo__nowhere, NULL, "out of memory");
+  return AMBULO_OK;
+}
+
+/* the text as a model, with its own messages */
+static ambulo_status read_back(const ambulo__text_buffer *text, const ambulo_allocator *allocator,
+                               ambulo_diagnostics *diagnostics) {
+  ambulo_model *model = NULL;
+  ambulo_status status =
+      ambulo_model_load_text(ambulo__text_data(text), text->length, "the imported model", NULL,
+                             allocator, diagnostics, &model);
+  ambulo_model_free(model);
+  return status;
+}
+
+static ambulo_status import_text(const char *path, const ambulo_import_options *options,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo__text_buffer *text) {
+  ambulo__arena arena = {.allocator = ambulo__allocator_or_default(allocator)};
+  ambulo__xml xml = {.arena = &arena, .diagnostics = diagnostics};
+  ambulo__tree tree = {.arena = &arena,
+                       .xml = &xml,
+                       .options = options,
+                       .name = "model",
+                       .format = "",
+                       .gravity = {0, -9.81, 0},
+                       .forward = {1, 0, 0}};
+  ambulo_status status = read_tree(&tree, path, text);
+  if (!status) status = read_back(text, allocator, diagnostics);
+  ambulo__arena_free(&arena);
+  return status;
+}
+
+ambulo_status ambulo_import_model(const char *path, const char *output,
+                                  const ambulo_import_options *options,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, char **text) {
+  ambulo_import_options own;
+  if (!AMBULO__OWN(ambulo_import_options, &own, options)) return AMBULO_E_ARGUMENT;
+  options = &own;
+  if (!path || !path[0] || (!output && !text) || (output && !output[0]) ||
+      !options_are_sane(options))
+    return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo__text_buffer buffer;
+  ambulo__text_init(&buffer, allocator);
+  ambulo_status status = AMBULO_OK;
+  if (output) status = ambulo__output_check(output, &path, 1, options->overwrite, diagnostics);
+  if (!status) status = import_text(path, options, allocator, diagnostics, &buffer);
+  if (!status && output)
+    status = ambulo__write_file(output, ambulo__text_data(&buffer), buffer.length, 1, allocator,
+                                diagnostics);
+  if (!status && !output) {
+    char *copy = ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
+    if (copy) *text = copy;
+    status = copy ? AMBULO_OK : AMBULO_E_MEMORY;
+  }
+  ambulo__text_free(&buffer);
+  return ambulo__conclude(diagnostics, errors, status, path);
+}

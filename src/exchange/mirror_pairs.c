@@ -1,0 +1,80 @@
+/* exchange/mirror_pairs.c - which coordinate takes whose place in the mirror image.
+ *
+ * Partners are found by name (side.h); their sign by the axes at q = 0: with H the reflection of
+ * left, a_partner = sign H a for sliders and -sign H a for hinges (docs/model-format.md). Where
+ * neither sign fits, the body is not symmetric there and nothing is said.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+#include "exchange/formats.h"
+#include "exchange/side.h"
+
+/* sine of the angle by which axes of the two sides may differ from images: what people round in
+ * files; `ambulo info` tells of less */
+static const double alike = 1e-3;
+
+static void left_of(const ambulo__tree *tree, double left[3]) {
+  double up[3] = {-tree->gravity[0], -tree->gravity[1], -tree->gravity[2]};
+  ambulo__cross(up, tree->forward, left);
+  (void)ambulo__normalize(left);
+}
+
+/* +1 or -1; 0: neither */
+static double sign_of(const ambulo__tree *tree, int link, int partner, const double left[3]) {
+  double a[3], b[3];
+  ambulo__rigid place = ambulo__tree_place(tree, link), other = ambulo__tree_place(tree, partner);
+  ambulo__rigid_vector(&place, tree->links[link].axis, a);
+  ambulo__rigid_vector(&other, tree->links[partner].axis, b);
+  double across = ambulo__dot(a, left),
+         kind = tree->links[link].type == AMBULO_REVOLUTE ? -1.0 : 1.0;
+  for (int i = 0; i < 3; i++) a[i] = kind * (a[i] - 2.0 * across * left[i]);
+  for (int sign = 1; sign >= -1; sign -= 2) {
+    double away = 0.0;
+    for (int i = 0; i < 3; i++) away = fmax(away, fabs(b[i] - sign * a[i]));
+    if (away < alike) return sign;
+  }
+  return 0.0;
+}
+
+/* the coordinate of the other side by name; the link itself where its name says no side, or none
+ * that another has; *lonely: it says one */
+static int partner_of(const ambulo__tree *tree, int link, int *lonely) {
+  char name[80];
+  const char *own = tree->links[link].coordinate.name;
+  int sided = ambulo__other_side(own, name, sizeof name);
+  int partner = sided ? ambulo__tree_find_coordinate(tree, name) : -1;
+  /* one letter alone; of lfemurrx, which says no side otherwise, the first */
+  for (size_t i = 0; partner < 0 && own[i] && (sided || i == 0); i++)
+    if (ambulo__flip_letter(own, i, name, sizeof name))
+      partner = ambulo__tree_find_coordinate(tree, name);
+  *lonely = sided && partner < 0;
+  return partner < 0 ? link : partner;
+}
+
+void ambulo__find_mirrors(ambulo__tree *tree) {
+  double left[3];
+  int lonely = 0;
+  const char *example = "";
+  left_of(tree, left);
+  for (int i = 0; i < tree->link_count; i++) {
+    ambulo__tree_link *link = &tree->links[i];
+    int alone = 0;
+    if (link->type == AMBULO_FIXED) continue;
+    int partner = partner_of(tree, i, &alone);
+    if (partner_of(tree, partner, &alone) != i || tree->links[partner].type != link->type)
+      partner = i;
+    double sign = sign_of(tree, i, partner, left);
+    link->has_mirror = sign != 0.0;
+    if (alone && !link->has_mirror) {
+      lonely++;
+      example = link->coordinate.name;
+    }
+    link->coordinate.mirror = partner;
+    link->coordinate.mirror_sign = sign;
+  }
+  if (lonely)
+    ambulo__tree_note(tree, NULL, "%d coordinates have no partner on the other side (%s, for one)",
+                      lonely, example);
+}

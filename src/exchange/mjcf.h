@@ -1,0 +1,76 @@
+/* exchange/mjcf.h - what the mjcf_*.c files share: the settings of a MuJoCo model. */
+#ifndef AMBULO_EXCHANGE_MJCF_H
+#define AMBULO_EXCHANGE_MJCF_H
+
+#include "exchange/formats.h"
+
+typedef enum ambulo__mjcf_inertia {
+  AMBULO__FROM_INERTIAL, /* inertiafromgeom="false" */
+  AMBULO__FROM_GEOMS,    /* "true" */
+  AMBULO__FROM_EITHER    /* "auto": of geoms where there is no <inertial> */
+} ambulo__mjcf_inertia;
+
+typedef struct ambulo__mjcf {
+  ambulo__tree *tree;
+  ambulo__xml *xml;
+  const ambulo__xml_node *root;
+  /* <compiler> */
+  double angle; /* rad of the file's unit */
+  char sequence[4];
+  int automatic_limits, groups[2];
+  ambulo__mjcf_inertia inertia;
+  double least_mass, least_inertia, total_mass;
+  /* what is left out, counted */
+  int armatures, springs;
+  int unnamed;
+  double *key; /* qpos of the start pose [key_count]; NULL: none */
+  int key_count, key_used;
+} ambulo__mjcf;
+
+/* <include>s are replaced by what the files hold, <frame>s stay (mjcf_include.c). */
+void ambulo__mjcf_include(ambulo__xml *xml, ambulo__xml_node *root, const char *path);
+
+/* ------------------------------------------------ attributes (mjcf_attributes.c) */
+
+/* An attribute of an element: its own, else that of its default class, `around` for an element
+ * that names none (NULL: the top one), and of the classes around that. NULL without. */
+const char *ambulo__mjcf_text(const ambulo__mjcf *m, const ambulo__xml_node *node,
+                              const char *around, const char *attribute);
+/* Numbers of it, `least` to `most`; how many, 0 without it or after an error. */
+int ambulo__mjcf_numbers(const ambulo__mjcf *m, const ambulo__xml_node *node, const char *around,
+                         const char *attribute, int least, int most, double *values);
+/* true, false or (-1) auto; `otherwise` without */
+int ambulo__mjcf_flag(const ambulo__mjcf *m, const ambulo__xml_node *node, const char *around,
+                      const char *attribute, int otherwise);
+/* pos, and quat, axisangle, euler, xyaxes or zaxis */
+ambulo__rigid ambulo__mjcf_place(const ambulo__mjcf *m, const ambulo__xml_node *node,
+                                 const char *around);
+
+/* --------------------------------------------------------- bodies (mjcf_bodies.c) */
+
+void ambulo__mjcf_bodies(ambulo__mjcf *m);
+
+/* ------------------------------------------------------ start pose (mjcf_key.c) */
+
+/* The first keyframe, and its next numbers for the joint that is met next; NULL without. */
+void ambulo__mjcf_key(ambulo__mjcf *m);
+const double *ambulo__mjcf_take(ambulo__mjcf *m, int count);
+/* Defaults of six coordinates from link `first` on, of a body that stands there in the file; of
+ * three. */
+void ambulo__mjcf_start_free(ambulo__mjcf *m, int first, const ambulo__rigid *body);
+void ambulo__mjcf_start_ball(ambulo__mjcf *m, int first);
+
+/* ----------------------------------------------------------- geoms (mjcf_geoms.c) */
+
+/* Adds mass and inertia of a geom, in the frame of its body, if `massive`, and its solid. */
+void ambulo__mjcf_geom(ambulo__mjcf *m, const ambulo__xml_node *geom, const char *around,
+                       const ambulo__rigid *frame, int massive, ambulo__part *body,
+                       ambulo__tree_solid *solid, int *has_solid);
+
+/* --------------------------------------------------- actuators (mjcf_actuators.c) */
+
+void ambulo__mjcf_actuators(ambulo__mjcf *m);
+/* Whether an actuator names the joint. */
+int ambulo__mjcf_is_driven(const ambulo__mjcf *m, const char *joint);
+
+#endif

@@ -1,0 +1,269 @@
+/* exchange/osim_joints.c - OpenSim's joints as chains of sliders and hinges (osim.h).
+ *
+ * A joint places its child's frame in its parent's by X(q), the frames F and M of the two bodies:
+ *
+ *   WeldJoint        1
+ *   PinJoint         turn about z
+ *   SliderJoint      slide along x
+ *   UniversalJoint   turns about x, then the turned y
+ *   GimbalJoint      turns about x, y, z, each turned by those before; BallJoint likewise
+ *   FreeJoint        slides along x, y, z of F, then turns as a gimbal; its coordinates are turns
+ * first PlanarJoint      slides along x and y of F, then turn about z; its coordinates are the turn
+ * first CustomJoint      Trans(a4 f4 + a5 f5 + a6 f6) Rot(a1, f1) Rot(a2, f2) Rot(a3, f3): each f a
+ *                    function of a coordinate
+ *
+ * A function slope q + offset with a slope of 1 is a joint of the coordinate itself; with -1 about
+ * the opposite axis; with another slope the coordinate of the model is slope times that of the
+ * source, which is said. Everything else, and what a coordinate drives besides, is frozen where the
+ * coordinate stands by default, and by how much it would have moved is said.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/numtext.h"
+#include "exchange/osim.h"
+
+enum { MOST_COORDINATES = 6, AXES = 6 };
+
+typedef struct building {
+  ambulo__osim *o;
+  const ambulo__osim_joint *joint;
+  ambulo__chain chain;
+  ambulo__osim_coordinate coordinates[MOST_COORDINATES];
+  int count;
+  int has_link[MOST_COORDINATES]; /* some axis is the coordinate's own */
+} building;
+
+/* ------------------------------------------------------------------- one degree */
+
+static void put_still(building *b, int slides, const double axis[3], double value) {
+  double unit[3], shift[3];
+  memcpy(unit, axis, sizeof unit);
+  (void)ambulo__normalize(unit);
+  for (int i = 0; i < 3; i++) shift[i] = value * unit[i];
+  ambulo__rigid still = slides ? ambulo__rigid_shift(shift) : ambulo__rigid_turn(unit, value);
+  ambulo__chain_place(&b->chain, &still);
+}
+
+/* slope q + offset about or along an axis */
+static void put_moving(building *b, int slides, const double axis[3], int c, double slope,
+                       double offset) {
+  ambulo__osim_coordinate *coordinate = &b->coordinates[c];
+  const double along[3] = {slope < 0 ? -axis[0] : axis[0], slope < 0 ? -axis[1] : axis[1],
+                           slope < 0 ? -axis[2] : axis[2]};
+  if (coordinate->held) {
+    put_still(b, slides, axis, slope * coordinate->value + offset);
+    return;
+  }
+  if (offset != 0.0) put_still(b, slides, axis, offset);
+  int link = ambulo__chain_joint(&b->chain, slides ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, along,
+                                 coordinate->name);
+  b->has_link[c] = 1;
+  if (fabs(slope) != 1.0)
+    ambulo__tree_note(b->o->tree, b->joint->node,
+                      "%s is %s times the coordinate of the source, which the joint's angle or "
+                      "length is",
+                      coordinate->name, ambulo__number_text(fabs(slope)).text);
+  ambulo__osim_limits(b->o, coordinate, fabs(slope), link);
+  if (link >= 0) b->o->tree->links[link].coordinate.default_value = fabs(slope) * coordinate->value;
+}
+
+static void simple(building *b, int slides, int along, int c) {
+  const double axis[3] = {along == 0, along == 1, along == 2};
+  if (c < b->count) put_moving(b, slides, axis, c, 1.0, 0.0);
+}
+
+/* ------------------------------------------------------------------ custom joints */
+
+typedef struct transform_axis {
+  const ambulo__xml_node *node, *function;
+  double axis[3];
+  int coordinate; /* -1: none */
+  int linear;
+  double slope, offset;
+} transform_axis;
+
+static int find_coordinate(const building *b, const char *name) {
+  for (int i = 0; i < b->count; i++)
+    if (strcmp(b->coordinates[i].name, name) == 0) return i;
+  return -1;
+}
+
+static int read_axis(building *b, const ambulo__xml_node *node, transform_axis *a) {
+  const char *names = ambulo__osim_text(node, "coordinates", NULL);
+  ambulo__xml *xml = b->o->xml;
+  *a = (transform_axis){.node = node, .coordinate = -1, .function = ambulo__osim_function(node)};
+  a->axis[0] = 1.0;
+  (void)ambulo__xml_child_vector(xml, node, "axis", 3, 0, a->axis);
+  double unit[3] = {a->axis[0], a->axis[1], a->axis[2]};
+  if (!(ambulo__normalize(unit) > 1e-9)) {
+    ambulo__xml_error(xml, node, AMBULO_E_MODEL, NULL,
+                      "an axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
+                      b->joint->name);
+    return 0;
+  }
+  memcpy(a->axis, unit, sizeof unit);
+  if (names[0]) {
+    a->coordinate = find_coordinate(b, names);
+    if (a->coordinate < 0) {
+      ambulo__xml_error(
+          xml, node, AMBULO_E_MODEL,
+          strpbrk(names, " \t\n") ? "functions of several coordinates are not read" : NULL,
+          "unknown coordinate of joint '%.60s' (got '%.60s'); expected one of the joint",
+          b->joint->name, names);
+      return 0;
+    }
+  }
+  a->linear = 1;
+  if (a->function) a->linear = ambulo__osim_is_linear(b->o, a->function, &a->slope, &a->offset);
+  return 1;
+}
+
+/* the largest way from where it is frozen, over the range of the coordinate */
+static double travel(building *b, const transform_axis *a, double frozen) {
+  const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
+  double range[2] = {c->value, c->value}, most = 0.0;
+  enum { SAMPLES = 64 };
+  (void)ambulo__xml_child_vector(b->o->xml, c->node, "range", 2, 1, range);
+  for (int i = 0; i <= SAMPLES; i++) {
+    double x = range[0] + (range[1] - range[0]) * i / SAMPLES;
+    if (!isfinite(x)) continue;
+    most = fmax(most, fabs(ambulo__osim_value(b->o, a->function, x) - frozen));
+  }
+  return most;
+}
+
+/* a function that is no joint of its own: frozen */
+static void put_frozen(building *b, const transform_axis *a, int slides) {
+  const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
+  double value = ambulo__osim_value(b->o, a->function, c->value);
+  put_still(b, slides, a->axis, value);
+  double most = c->held ? 0.0 : travel(b, a, value);
+  if (most == 0.0) return;
+  ambulo__tree_note(b->o->tree, a->node,
+                    "%s: %s follows %s by a %s: frozen at %s = %s; over its range it %s up to "
+                    "%s %s",
+                    b->joint->name,
+                    ambulo__xml_attribute(a->node, "name") ? ambulo__xml_attribute(a->node, "name")
+                                                           : "an axis",
+                    c->name, a->function->name, c->name, ambulo__number_text(c->value).text,
+                    slides ? "slides by" : "turns by",
+                    ambulo__three_digits(slides ? 1e3 * most : most * 180.0 / acos(-1.0)).text,
+                    slides ? "mm" : "degrees");
+}
+
+static void put_axis(building *b, const transform_axis *a, int slides) {
+  if (a->coordinate < 0 || (a->linear && a->slope == 0.0)) {
+    double value = a->linear     ? a->offset
+                   : a->function ? ambulo__osim_value(b->o, a->function, 0.0)
+                                 : 0.0;
+    if (value != 0.0) put_still(b, slides, a->axis, value);
+  } else if (a->linear && !b->has_link[a->coordinate]) {
+    put_moving(b, slides, a->axis, a->coordinate, a->slope, a->offset);
+  } else {
+    put_frozen(b, a, slides);
+  }
+}
+
+/* Which of the axes that are linear in a coordinate gets it: a turn rather than a slide. */
+static void choose(building *b, transform_axis *axes) {
+  for (int c = 0; c < b->count; c++) {
+    int owner = -1;
+    for (int i = 0; i < AXES; i++)
+      if (axes[i].coordinate == c && axes[i].linear && axes[i].slope != 0.0 && owner < 0) owner = i;
+    for (int i = 0; i < AXES; i++)
+      if (axes[i].coordinate == c && i != owner && axes[i].slope != 0.0) axes[i].linear = 0;
+    if (owner < 0 && !b->coordinates[c].held)
+      ambulo__tree_note(b->o->tree, b->coordinates[c].node,
+                        "%s drives no axis by a straight line: it is left out, with its joint held "
+                        "at %s",
+                        b->coordinates[c].name, ambulo__number_text(b->coordinates[c].value).text);
+  }
+}
+
+static int custom(building *b) {
+  static const char *const names[AXES] = {"rotation1",    "rotation2",    "rotation3",
+                                          "translation1", "translation2", "translation3"};
+  const ambulo__xml_node *spatial = ambulo__xml_child(b->joint->node, "SpatialTransform");
+  transform_axis axes[AXES];
+  for (int i = 0; i < AXES; i++)
+    axes[i] = (transform_axis){
+        .coordinate = -1, .linear = 1, .axis = {i % 3 == 0, i % 3 == 1, i % 3 == 2}};
+  for (const ambulo__xml_node *n = ambulo__xml_child(spatial, "TransformAxis"); n;
+       n = ambulo__xml_next(n, "TransformAxis")) {
+    const char *name = ambulo__xml_attribute(n, "name");
+    int i = ambulo__xml_choice(b->o->xml, n, "transform axis", name ? name : "", names, AXES);
+    if (i < 0 || !read_axis(b, n, &axes[i])) return 0;
+  }
+  choose(b, axes);
+  for (int i = 3; i < AXES; i++) put_axis(b, &axes[i], 1);
+  for (int i = 0; i < 3; i++) put_axis(b, &axes[i], 0);
+  return 1;
+}
+
+/* -------------------------------------------------------------------------- joints */
+
+enum { WELD, PIN, SLIDER, UNIVERSAL, GIMBAL, BALL, FREE, PLANAR, CUSTOM, TYPES };
+
+static int put_joint(building *b, int type) {
+  switch (type) {
+  case PIN:
+    simple(b, 0, 2, 0);
+    break;
+  case SLIDER:
+    simple(b, 1, 0, 0);
+    break;
+  case UNIVERSAL:
+    for (int i = 0; i < 2; i++) simple(b, 0, i, i);
+    break;
+  case GIMBAL:
+  case BALL:
+    for (int i = 0; i < 3; i++) simple(b, 0, i, i);
+    break;
+  case FREE:
+    for (int i = 0; i < 3; i++) simple(b, 1, i, 3 + i);
+    for (int i = 0; i < 3; i++) simple(b, 0, i, i);
+    break;
+  case PLANAR:
+    for (int i = 0; i < 2; i++) simple(b, 1, i, 1 + i);
+    simple(b, 0, 2, 0);
+    break;
+  case CUSTOM:
+    return custom(b);
+  default:
+    break; /* a weld */
+  }
+  return 1;
+}
+
+static int type_of(ambulo__osim *o, const ambulo__osim_joint *joint) {
+  static const char *const types[TYPES] = {"WeldJoint",      "PinJoint",    "SliderJoint",
+                                           "UniversalJoint", "GimbalJoint", "BallJoint",
+                                           "FreeJoint",      "PlanarJoint", "CustomJoint"};
+  return ambulo__xml_choice(o->xml, joint->node, "joint", joint->node->name, types, TYPES);
+}
+
+int ambulo__osim_add_joint(ambulo__osim *o, const ambulo__osim_joint *joint, int parent) {
+  static const int wanted[TYPES] = {0, 1, 1, 2, 3, 3, 6, 3, -1};
+  int type = type_of(o, joint);
+  if (type < 0) return -1;
+  building b = {.o = o, .joint = joint, .chain = ambulo__chain_begin(o->tree, parent, joint->node)};
+  b.count = ambulo__osim_coordinates(o, joint, MOST_COORDINATES, b.coordinates);
+  if (b.count < 0 || (wanted[type] >= 0 && b.count != wanted[type])) {
+    if (b.count >= 0)
+      ambulo__xml_error(o->xml, joint->node, AMBULO_E_SCHEMA, NULL,
+                        "<%s> '%.60s' has %d coordinates; expected %d", joint->node->name,
+                        joint->name, b.count, wanted[type]);
+    return -1;
+  }
+  int first = o->tree->link_count;
+  ambulo__rigid back = ambulo__rigid_inverse(&joint->in_child);
+  ambulo__chain_place(&b.chain, &joint->in_parent);
+  if (!put_joint(&b, type)) return -1;
+  ambulo__chain_place(&b.chain, &back);
+  int link = ambulo__chain_end(&b.chain, o->bodies[joint->child].name);
+  /* what moves the whole body as three or more coordinates has no muscle */
+  for (int i = first; i < o->tree->link_count && joint->parent == 0 && b.count >= 3; i++)
+    o->tree->links[i].coordinate.actuated = 0;
+  return link;
+}

@@ -1,0 +1,62 @@
+/* exchange/xml_tree.h - an XML document as a tree that remembers file, line and column.
+ *
+ * Elements with their attributes and their text; comments, processing instructions and the
+ * document type are passed over. Entities of a document's own are refused, so that none can unfold
+ * into more than was read. At most 64 MiB a file, a million elements, 200 levels.
+ *
+ * Parsing is expat's. A library that was built without it (AMBULO_HAS_EXPAT is not defined) refuses
+ * every document with a message that says so. */
+#ifndef AMBULO_EXCHANGE_XML_TREE_H
+#define AMBULO_EXCHANGE_XML_TREE_H
+
+#include "base/diagnostics.h"
+#include "exchange/arena.h"
+
+typedef struct ambulo__xml_node ambulo__xml_node;
+struct ambulo__xml_node {
+  const char *name;
+  const char *text;        /* of its own, trimmed; "" without */
+  const char **attributes; /* name, value, name, value, ..., NULL */
+  const char *file;
+  int line, column;
+  ambulo__xml_node *parent, *first, *last, *next;
+};
+
+typedef struct ambulo__xml {
+  ambulo__arena *arena;
+  ambulo_diagnostics *diagnostics;
+  ambulo_status status; /* of everything that was asked of the tree; the first fault counts */
+} ambulo__xml;
+
+/* The root element of a file, NULL after an error (in xml->status too). `file` must outlive it. */
+ambulo__xml_node *ambulo__xml_load(ambulo__xml *xml, const char *file);
+
+/* The first child of that name, the next sibling of that name; NULL: none. NULL has no children. */
+ambulo__xml_node *ambulo__xml_child(const ambulo__xml_node *node, const char *name);
+ambulo__xml_node *ambulo__xml_next(const ambulo__xml_node *node, const char *name);
+int ambulo__xml_is(const ambulo__xml_node *node, const char *name);
+/* Value of an attribute; NULL without. */
+const char *ambulo__xml_attribute(const ambulo__xml_node *node, const char *name);
+
+ambulo__place ambulo__xml_place(const ambulo__xml_node *node);
+/* Records an error at a node. */
+void ambulo__xml_error(ambulo__xml *xml, const ambulo__xml_node *node, ambulo_status status,
+                       const char *hint, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+/* Numbers in `text`, between blanks, into values[0..most); returns how many there are, or -1 after
+ * an error about `what` at the node. Infinity (inf, Infinity) is a number only where `infinite`. */
+int ambulo__xml_numbers(ambulo__xml *xml, const ambulo__xml_node *node, const char *what,
+                        const char *text, int most, int infinite, double *values);
+/* The number(s) of an attribute, exactly `count`: 1; 0 without it, or after an error, and values
+ * stay. */
+int ambulo__xml_vector(ambulo__xml *xml, const ambulo__xml_node *node, const char *attribute,
+                       int count, double *values);
+/* The same of the text of a child. */
+int ambulo__xml_child_vector(ambulo__xml *xml, const ambulo__xml_node *node, const char *child,
+                             int count, int infinite, double *values);
+/* Index of a text among words; -1 after an error at the node with the nearest of them. */
+int ambulo__xml_choice(ambulo__xml *xml, const ambulo__xml_node *node, const char *what,
+                       const char *text, const char *const *words, int count);
+
+#endif

@@ -1,0 +1,139 @@
+/* definitions/model_links.c - `links` of a model file: tree, DH constants, coordinates. */
+#include <string.h>
+
+#include "definitions/model_reader.h"
+
+static int is_world(const char *name) {
+  return strcmp(name, "none") == 0 || strcmp(name, "world") == 0;
+}
+
+static void read_names(ambulo__reader *reader, const ambulo__yaml_node *list) {
+  for (int i = 0; i < reader->definition.link_count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    const ambulo__yaml_node *node = ambulo__yaml_require(item, "name");
+    const char *name = ambulo__yaml_name(node);
+    reader->links[i] = ambulo_link_default();
+    reader->link_places[i] = ambulo__yaml_place(item);
+    reader->links[i].name = reader->link_names[i] = name;
+    if (is_world(name)) {
+      (void)ambulo__yaml_error(node, AMBULO_E_MODEL, NULL,
+                               "no link can be named '%s': it stands for the world", name);
+    }
+  }
+}
+
+/* Only one link hangs on the world; *root is its index, -1 before it is met. */
+static void read_parent(ambulo__reader *reader, const ambulo__yaml_node *item, int index,
+                        int *root) {
+  const ambulo__yaml_node *node = ambulo__yaml_require(item, "parent");
+  const char *name = ambulo__yaml_text(node);
+  ambulo_link *link = &reader->links[index];
+  if (!name[0]) return;
+  if (!is_world(name)) {
+    link->parent =
+        ambulo__read_reference(node, "link", reader->link_names, reader->definition.link_count);
+    return;
+  }
+  if (*root >= 0) {
+    (void)ambulo__yaml_error(node, AMBULO_E_MODEL, "hang both on one fixed link",
+                             "two roots: '%s' (line %d) and '%s' hang on the world; expected one",
+                             reader->links[*root].name, reader->link_places[*root].line,
+                             link->name);
+    return;
+  }
+  *root = index;
+}
+
+static void read_dh(ambulo__reader *reader, const ambulo__yaml_node *item, ambulo_link *link) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(item, "dh");
+  if (!node && !ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) return; /* said before */
+  if (!node) {
+    (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                             "link '%s' has no place; expected `dh`, or `origin` and `axis`",
+                             link->name);
+    return;
+  }
+  const ambulo__yaml_node *list = ambulo__by_sex(reader, node);
+  double unused[4];
+  if (!list) return;
+  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE) || ambulo__yaml_items(list) != 4) {
+    (void)ambulo__yaml_numbers(list, 4, unused); /* says what is wrong */
+    return;
+  }
+  link->theta = ambulo__read_angle(reader, ambulo__yaml_item(list, 0), reader->dh_angle);
+  link->d = ambulo__read_scaled(reader, ambulo__yaml_item(list, 1), reader->length, 0);
+  link->a = ambulo__read_scaled(reader, ambulo__yaml_item(list, 2), reader->length, 0);
+  link->alpha = ambulo__read_angle(reader, ambulo__yaml_item(list, 3), reader->dh_angle);
+}
+
+static double sign_at(const ambulo__yaml_node *node) {
+  static const char *const signs[] = {"1", "-1", "+1"};
+  return ambulo__yaml_choice(node, signs, 3, 0) == 1 ? -1 : 1;
+}
+
+/* `node` may be NULL: a joint without limits, named after its link. */
+static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *node,
+                            const ambulo_link *link, ambulo__place link_place) {
+  int index = reader->definition.coordinate_count++;
+  ambulo_coordinate *coordinate = &reader->coordinates[index];
+  int is_angle = link->type == AMBULO_REVOLUTE;
+  double unit = is_angle ? reader->angle : reader->length;
+  *coordinate = ambulo_coordinate_default();
+  coordinate->type = link->type;
+  coordinate->name = link->name;
+  reader->coordinate_places[index] = node ? ambulo__yaml_place(node) : link_place;
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  if (name) coordinate->name = ambulo__yaml_name(name);
+  reader->coordinate_names[index] = coordinate->name;
+  ambulo__read_interval(reader, ambulo__yaml_get(node, "range"), unit, is_angle, coordinate->range);
+  ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);
+  ambulo__read_interval(reader, ambulo__yaml_get(node, "torque"),
+                        is_angle ? reader->moment : reader->force, 0, coordinate->torque);
+  const ambulo__yaml_node *start = ambulo__yaml_get(node, "default");
+  if (start)
+    coordinate->default_value = is_angle ? ambulo__read_angle(reader, start, unit)
+                                         : ambulo__read_scaled(reader, start, unit, 0);
+  coordinate->actuated = ambulo__yaml_boolean(ambulo__yaml_get(node, "actuated"), 1);
+  coordinate->mirror_sign = sign_at(ambulo__yaml_get(node, "mirror_sign"));
+  ambulo__yaml_expect(node, "mirror");
+  ambulo__yaml_close(node);
+}
+
+static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int index, int *root) {
+  static const char *const types[] = {"fixed", "revolute", "prismatic"};
+  ambulo_link *link = &reader->links[index];
+  int choice = ambulo__yaml_choice(ambulo__yaml_require(item, "joint"), types, 3, -1);
+  link->type = choice == 1 ? AMBULO_REVOLUTE : choice == 2 ? AMBULO_PRISMATIC : AMBULO_FIXED;
+  read_parent(reader, item, index, root);
+  if (!ambulo__read_origin(reader, item, index)) read_dh(reader, item, link);
+  ambulo__read_body(reader, item, link);
+  const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
+  if (link->type != AMBULO_FIXED) {
+    read_coordinate(reader, coordinate, link, reader->link_places[index]);
+  } else if (coordinate && choice == 0) {
+    (void)ambulo__yaml_error(coordinate, AMBULO_E_SCHEMA, NULL,
+                             "link '%s' is fixed; expected no coordinate", link->name);
+  }
+  ambulo__yaml_close(item);
+}
+
+/* Mirror images can be resolved once all coordinates have names. */
+static void read_mirrors(ambulo__reader *reader, const ambulo__yaml_node *list) {
+  for (int i = 0, index = 0; i < reader->definition.link_count; i++) {
+    if (reader->links[i].type == AMBULO_FIXED) continue;
+    const ambulo__yaml_node *coordinate =
+        ambulo__yaml_get(ambulo__yaml_item(list, i), "coordinate");
+    reader->coordinates[index++].mirror =
+        ambulo__read_reference(ambulo__yaml_get(coordinate, "mirror"), "coordinate",
+                               reader->coordinate_names, reader->definition.coordinate_count);
+  }
+}
+
+void ambulo__read_links(ambulo__reader *reader, const ambulo__yaml_node *list) {
+  int root = -1;
+  read_names(reader, list);
+  for (int i = 0; i < reader->definition.link_count; i++) {
+    read_link(reader, ambulo__yaml_item(list, i), i, &root);
+  }
+  read_mirrors(reader, list);
+}

@@ -1,0 +1,94 @@
+/* definitions/model_reader.h - a model file on its way to a definition (docs/model-format.md).
+ *
+ * The parts of the file are read in this order: subject and units, links, coordinates' mirror
+ * images, points, feet, patches, capsules. Faults are recorded and reading goes on;
+ * ambulo__reader_status() tells at the end. Names in the definition belong to the YAML document. */
+#ifndef AMBULO_DEFINITIONS_MODEL_READER_H
+#define AMBULO_DEFINITIONS_MODEL_READER_H
+
+#include "formats/yaml_node.h"
+#include "model/check.h"
+#include "model/composite.h"
+
+typedef struct ambulo__origin ambulo__origin; /* of a link (model_placement.c) */
+
+typedef struct ambulo__reader {
+  ambulo_allocator allocator;
+  ambulo_diagnostics *diagnostics;
+  ambulo__yaml *document;
+  ambulo_status status; /* first fault that the document does not know of */
+
+  ambulo_subject subject; /* the caller's, completed by the file's */
+  /* factors from the units of the file to SI */
+  double angle, dh_angle, length, mass, moment, force;
+  int warned_of_degrees;
+
+  ambulo_model_definition definition;
+  ambulo_link *links;             /* [link_count] */
+  ambulo_coordinate *coordinates; /* [link_count], coordinate_count in use */
+  ambulo_point *points;           /* [point_count] */
+  ambulo_foot *feet;              /* [foot_count] */
+  ambulo_patch *patches;          /* [patch_count] */
+  ambulo_capsule *capsules;       /* [capsule_count] */
+  ambulo__model_places places;
+  ambulo__place *link_places, *coordinate_places, *point_places, *foot_places, *patch_places,
+      *capsule_places;
+  const char **link_names, **coordinate_names, **point_names, **foot_names, **patch_names,
+      **capsule_names;
+  ambulo__origin *origins; /* [links of the file + 1] */
+  /* what links with an origin became, NULL where there is none: DH rows, of more links than the
+   * file has */
+  ambulo_link *rows;
+  ambulo__place *row_places;
+  char *row_names;
+} ambulo__reader;
+
+ambulo_status ambulo__reader_status(const ambulo__reader *reader);
+
+/* Items of an optional sequence, at most `limit`: *count and 1, or 0 after E_LIMIT or E_SCHEMA. */
+int ambulo__read_count(ambulo__reader *reader, const ambulo__yaml_node *list, const char *what,
+                       int limit, int *count);
+
+/* ------------------------------------------------------- numbers (model_numbers.c) */
+
+/* The node meant for the subject's sex: a mapping {male: x, female: y} stands for one of
+ * them, any other node for itself. */
+const ambulo__yaml_node *ambulo__by_sex(ambulo__reader *reader, const ambulo__yaml_node *node);
+double ambulo__read_scaled(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
+                           double fallback);
+/* Exactly `count` numbers times factor; 1 on success; values are untouched otherwise. */
+int ambulo__read_vector(ambulo__reader *reader, const ambulo__yaml_node *node, int count,
+                        double factor, double *values);
+/* An angle in radians; warns once when the file says radians and means degrees. */
+double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node, double unit);
+/* [lower, upper], either of them `none`: without limit. NULL leaves the interval as it is. */
+void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
+                           int is_angle, double interval[2]);
+
+/* Index of the name at `node` among names[0..count), or -1 with E_MODEL and the nearest one.
+ * NULL gives -1 silently. */
+int ambulo__read_reference(const ambulo__yaml_node *node, const char *kind,
+                           const char *const *names, int count);
+
+/* ------------------------------------------------------------------------- sections */
+
+void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root);
+/* `asked`: the caller's subject, NULL for none; told when the file does not scale. */
+void ambulo__read_units(ambulo__reader *reader, const ambulo__yaml_node *root,
+                        const ambulo_subject *asked);
+void ambulo__read_links(ambulo__reader *reader, const ambulo__yaml_node *list);
+/* `origin` and `axis` of a link; 0 if it has neither. */
+int ambulo__read_origin(ambulo__reader *reader, const ambulo__yaml_node *item, int index);
+ambulo__origin *ambulo__origins_create(const ambulo_allocator *allocator, int links);
+/* After all sections: links with an origin become DH rows, and references to links follow. */
+void ambulo__expand_origins(ambulo__reader *reader);
+/* Tells the model which link of the file describes a coordinate. */
+void ambulo__name_written(const ambulo__reader *reader, ambulo_model *model);
+void ambulo__read_body(ambulo__reader *reader, const ambulo__yaml_node *link_node,
+                       ambulo_link *link);
+void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list);
+void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list);
+void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list);
+void ambulo__read_capsules(ambulo__reader *reader, const ambulo__yaml_node *list);
+
+#endif

@@ -1,0 +1,340 @@
+/* definitions/problem_objective.c - `objective:` of a problem file: a list of terms, or `none`. */
+#include "definitions/problem_reader.h"
+
+#include "model/neutral_pose.h"
+#include "problem/term.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_TERMS = 64 };
+
+static double *coordinate_array(ambulo__problem_reader *reader, double value) {
+  int count = ambulo_model_coordinate_count(reader->model);
+  double *array = ambulo__reader_alloc(reader, (size_t)count, sizeof *array);
+  for (int i = 0; array && i < count; i++) array[i] = value;
+  return array;
+}
+
+/* a number for all coordinates, or a mapping with `default` for those it does not name; a pair of
+ * prices (read_prices) is 1 here */
+static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          int may_be_pairs) {
+  if (!node) return coordinate_array(reader, 1.0);
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    return coordinate_array(reader, ambulo__yaml_number_in(node, 0.0, 1e12, 1.0));
+  }
+  double rest = ambulo__yaml_number_in(ambulo__yaml_get(node, "default"), 0.0, 1e12, 1.0);
+  double *scale = coordinate_array(reader, rest);
+  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    int is_pair = ambulo__yaml_is(value, AMBULO__YAML_SEQUENCE);
+    if (is_pair && !may_be_pairs)
+      (void)ambulo__yaml_error(
+          value, AMBULO_E_SCHEMA,
+          "prices by direction are those of torque_power with strength: limits",
+          "got a sequence of %d; expected a number", ambulo__yaml_items(value));
+    if (is_pair)
+      scale[i] = 1.0;
+    else
+      scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
+  }
+  ambulo__yaml_close(node);
+  return scale;
+}
+
+/* mg with the sign that the coordinate's generalized force has when it carries the body */
+static double body_weight_on(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                             int i) {
+  const ambulo_model *model = reader->model;
+  double axis[3], vertical = 0.0, g = 0.0;
+  ambulo__neutral_axis(model, i, axis);
+  for (int k = 0; k < 3; k++) {
+    vertical += axis[k] * model->up[k];
+    g += model->gravity[k] * model->gravity[k];
+  }
+  if (!ambulo__is_root_translation(model, i) || fabs(vertical) < 0.999) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "body_weight on '%s'; expected a vertical translation of the root",
+                             model->coordinates[i].name);
+    return 0.0;
+  }
+  return (vertical > 0.0 ? 1.0 : -1.0) * model->mass * sqrt(g);
+}
+
+static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_SCHEMA, NULL,
+        "'offset' is not a mapping; expected coordinate: number or body_weight");
+    return NULL;
+  }
+  double *offset = coordinate_array(reader, 0.0);
+  for (int i = 0; offset && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    if (!value) continue;
+    const char *text = ambulo__yaml_text(value);
+    if (strcmp(text, "body_weight") == 0) {
+      offset[i] = body_weight_on(reader, value, i) / reader->keys.heavier; /* the subject's own */
+    } else if (text[0]) {
+      offset[i] = ambulo__yaml_number(value, 0.0);
+    }
+  }
+  ambulo__yaml_close(node);
+  return offset;
+}
+
+/* values per coordinate for a mapping {coordinate: [..]}; those not named stay zero */
+static double *read_curves(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                           int size) {
+  if (!node) return NULL;
+  int count = ambulo_model_coordinate_count(reader->model);
+  double *curves = ambulo__reader_alloc(reader, (size_t)(count * size), sizeof *curves);
+  for (int i = 0; curves && i < count; i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    (void)ambulo__yaml_numbers(value, size, curves + i * size);
+  }
+  ambulo__yaml_close(node);
+  return curves;
+}
+
+/* prices in `scale: {coordinate: [negative, positive]}` of strength that is limits; NULL: none */
+static double *read_prices(ambulo__problem_reader *reader, const ambulo__yaml_node *scale) {
+  int count = ambulo_model_coordinate_count(reader->model), some = 0;
+  if (!ambulo__yaml_is(scale, AMBULO__YAML_MAPPING)) return NULL;
+  double *price = ambulo__reader_alloc(reader, 2 * (size_t)count, sizeof *price);
+  for (int i = 0; price && i < count; i++) {
+    const ambulo__yaml_node *pair =
+        ambulo__yaml_get(scale, ambulo_model_coordinate(reader->model, i)->name);
+    price[2 * i] = price[2 * i + 1] = 1.0;
+    if (!ambulo__yaml_is(pair, AMBULO__YAML_SEQUENCE)) continue;
+    some = 1;
+    if (!ambulo__yaml_numbers(pair, 2, price + 2 * i)) continue;
+    for (int up = 0; up < 2; up++) {
+      if (price[2 * i + up] > 0.0 && price[2 * i + up] <= 1e12) continue;
+      (void)ambulo__yaml_error(ambulo__yaml_item(pair, up), AMBULO_E_SCHEMA,
+                               "a scale of 0 leaves the coordinate out",
+                               "a price of %g for %s; expected one above 0, at most 1e12",
+                               price[2 * i + up], ambulo_model_coordinate(reader->model, i)->name);
+    }
+  }
+  return some ? price : NULL;
+}
+
+/* curves, or the word `limits` */
+static void read_strength(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          const ambulo__yaml_node *scale, ambulo_term *term) {
+  static const char *const words[] = {"limits"};
+  if (node && !ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    term->strength_is_limits = ambulo__yaml_choice(node, words, 1, -1) == 0;
+    term->price = read_prices(reader, scale);
+  } else {
+    if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING) && ambulo__yaml_pairs(node) == 0)
+      (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                               "an empty mapping; expected 'limits', or curves of coordinates");
+    term->strength = read_curves(reader, node, 6);
+  }
+}
+
+/* stiffness of tendons by coordinate; those not named have none */
+static double *read_tendon(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  double *tendon = coordinate_array(reader, 0.0);
+  for (int i = 0; tendon && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    tendon[i] = ambulo__yaml_number_in(value, 1e-6, 1e12, 0.0);
+  }
+  ambulo__yaml_close(node);
+  return tendon;
+}
+
+/* `points: [from, to]`, names of the model's points */
+static void read_line(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                      ambulo_term *term) {
+  for (int end = 0; end < 2; end++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, end);
+    const char *name = ambulo__yaml_name(item);
+    if (!name[0]) continue;
+    term->point[end] = ambulo_model_find_point(reader->model, name);
+    if (term->point[end] < 0)
+      (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM,
+                               "'ambulo info' of the model lists its points",
+                               "unknown point (got '%s'); expected a point of the model", name);
+  }
+}
+
+/* `angles` of posture, in the file's unit; 0 for those not named */
+static double *read_posture(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  double *angles = coordinate_array(reader, 0.0);
+  for (int i = 0; angles && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    if (value) angles[i] = ambulo__read_coordinate_value(reader, value, i);
+  }
+  ambulo__yaml_close(node);
+  return angles;
+}
+
+/* `scale` of posture names what it holds; everything else stays free */
+static double *read_posture_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  double *scale = coordinate_array(reader, 0.0);
+  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, 0.0);
+  }
+  ambulo__yaml_close(node);
+  return scale;
+}
+
+/* of devices by name, as read_scale of coordinates */
+static double *read_device_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  int count = reader->definition.device_count;
+  int by_name = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  double rest =
+      ambulo__yaml_number_in(by_name ? ambulo__yaml_get(node, "default") : node, 0.0, 1e12, 1.0);
+  double *scale = ambulo__reader_alloc(reader, (size_t)count, sizeof *scale);
+  for (int i = 0; scale && i < count; i++) {
+    const char *name = reader->definition.devices[i].name;
+    const ambulo__yaml_node *value = by_name && name ? ambulo__yaml_get(node, name) : NULL;
+    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, rest);
+  }
+  if (by_name) ambulo__yaml_close(node);
+  return scale;
+}
+
+static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         ambulo_term *term) {
+  switch (term->kind) {
+  case AMBULO_TORQUE_POWER:
+    term->power = ambulo__yaml_number_in(ambulo__yaml_get(node, "power"), 2.0, 8.0, term->power);
+    term->passive = read_curves(reader, ambulo__yaml_get(node, "passive"), 4);
+    read_strength(reader, ambulo__yaml_get(node, "strength"), ambulo__yaml_get(node, "scale"),
+                  term);
+    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+    break;
+  case AMBULO_TORQUE_SQUARED:
+  case AMBULO_TORQUE_ABSOLUTE:
+    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+    break;
+  case AMBULO_POSTURE:
+    term->offset = read_posture(reader, ambulo__yaml_get(node, "angles"));
+    break;
+  case AMBULO_UPRIGHT:
+    read_line(reader, ambulo__yaml_require(node, "points"), term);
+    break;
+  case AMBULO_ACCELERATION:
+  case AMBULO_TRACKING:
+  case AMBULO_USER_TERM:
+  case AMBULO_USER_SQUARE:
+  case AMBULO_TORQUE_RATE:
+  case AMBULO_GROUND_FORCE:
+  case AMBULO_TERM_KIND_NOT_SET:
+    break;
+  case AMBULO_MECHANICAL_POWER:
+    term->tendon = read_tendon(reader, ambulo__yaml_get(node, "tendon"));
+    break;
+  case AMBULO_DEVICE_EFFORT:
+    term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
+    break;
+  case AMBULO_FORCE_RATE:
+    if (reader->definition.ground_reaction.kind == AMBULO_REACTION_NONE)
+      (void)ambulo__yaml_error(ambulo__yaml_get(node, "term"), AMBULO_E_PROBLEM, NULL,
+                               "force_rate without ground_reaction: no forces on feet; expected "
+                               "ground_reaction: {kind: shared} or {kind: two_step}");
+    break;
+  case AMBULO_CLEARANCE:
+    term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
+    break;
+  }
+}
+
+static int has_smoothing(ambulo_term_kind kind) {
+  return kind == AMBULO_TORQUE_ABSOLUTE || kind == AMBULO_TORQUE_POWER ||
+         kind == AMBULO_MECHANICAL_POWER;
+}
+
+static int has_scale(ambulo_term_kind kind) {
+  return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE &&
+         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE && kind != AMBULO_DEVICE_EFFORT;
+}
+
+/* 0: there is none, which was said */
+static int read_kind(const ambulo__yaml_node *node, ambulo_term_kind *kind) {
+  static const char *const words[] = {
+      "torque_squared", "torque_absolute",  "acceleration", "tracking", "torque_power",
+      "torque_rate",    "mechanical_power", "posture",      "upright",  "ground_force",
+      "clearance",      "force_rate",       "device_effort"};
+  static const ambulo_term_kind kinds[] = {
+      AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
+      AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
+      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,        AMBULO_FORCE_RATE,
+      AMBULO_DEVICE_EFFORT};
+  int choice = ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), -1);
+  if (choice >= 0) *kind = kinds[choice];
+  return choice >= 0;
+}
+
+static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                      ambulo_term *term) {
+  ambulo_term_kind kind = AMBULO_TORQUE_SQUARED;
+  int known = read_kind(ambulo__yaml_require(node, "term"), &kind);
+  *term = ambulo_term_default(kind);
+  if (!known) return; /* which keys it has is not known either */
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  if (name) term->name = ambulo__yaml_name(name);
+  term->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e12, 1.0);
+  double *scale = NULL;
+  int priced = term->kind == AMBULO_TORQUE_POWER &&
+               ambulo__yaml_is(ambulo__yaml_get(node, "strength"), AMBULO__YAML_SCALAR);
+  if (has_scale(term->kind)) scale = read_scale(reader, ambulo__yaml_get(node, "scale"), priced);
+  if (term->kind == AMBULO_POSTURE)
+    scale = read_posture_scale(reader, ambulo__yaml_require(node, "scale"));
+  term->scale = scale;
+  if (has_smoothing(term->kind))
+    term->smoothing =
+        ambulo__yaml_number_in(ambulo__yaml_get(node, "smoothing"), 1e-9, 1e9, term->smoothing);
+  read_details(reader, node, term);
+  if (term->kind == AMBULO_TRACKING && scale) {
+    const ambulo__yaml_node *reference = ambulo__yaml_require(node, "reference");
+    if (reference) term->reference = ambulo__read_tracked_motion(reader, reference, scale);
+  }
+  ambulo__yaml_close(node);
+}
+
+static int is_none(const ambulo__yaml_node *node) {
+  static const char *const words[] = {"none"};
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
+  (void)ambulo__yaml_choice(node, words, 1, 0);
+  return 1;
+}
+
+void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node || is_none(node)) return;
+  int count = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
+  if (count < 1 || count > MOST_TERMS) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_SCHEMA, NULL,
+        "'objective' is not a list of 1 to %d terms; expected terms, or 'none'", MOST_TERMS);
+    return;
+  }
+  ambulo_term *terms = ambulo__reader_alloc(reader, (size_t)count, sizeof *terms);
+  if (!terms) return;
+  for (int t = 0; t < count; t++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, t);
+    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
+      read_term(reader, item, &terms[t]);
+    } else {
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "a term is not a mapping; expected term, weight, ...");
+    }
+  }
+  reader->definition.terms = terms;
+  reader->definition.term_count = count;
+}

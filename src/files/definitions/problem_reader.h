@@ -1,0 +1,117 @@
+/* definitions/problem_reader.h - reading a problem file, section by section
+ * (docs/problem-format.md).
+ *
+ * Every section function reads its keys into reader->definition or reader->options and
+ * records faults in the document; none stops at the first. Arrays of the definition are
+ * blocks of the reader and live until the problem has copied them. */
+#ifndef AMBULO_DEFINITIONS_PROBLEM_READER_H
+#define AMBULO_DEFINITIONS_PROBLEM_READER_H
+
+#include "ambulo/solve.h"
+#include "formats/yaml_node.h"
+#include "problem/nlp.h"
+#include "definitions/model_file.h"
+
+typedef struct ambulo__reader_block ambulo__reader_block;
+
+/* ambulo_problem_load_text */
+typedef ambulo_status ambulo__text_loader(const ambulo_problem_text *text,
+                                          const ambulo_allocator *allocator,
+                                          ambulo_diagnostics *diagnostics,
+                                          ambulo_problem **problem);
+
+typedef struct ambulo__problem_reader {
+  ambulo_allocator allocator;
+  ambulo_diagnostics *diagnostics;
+  ambulo__yaml *document;  /* NULL before it is loaded */
+  const char *directory;   /* where relative names start; "" for the current one */
+  const char *text, *name; /* of the document, and what it is called */
+  size_t length;
+  const char *const *override; /* [override_count], which it is read with */
+  int override_count;
+  ambulo__text_loader *load;      /* of the same text, with other overrides */
+  ambulo__reader_block *blocks;   /* freed with the reader */
+  ambulo_status failure;          /* E_MEMORY, or what a referenced file failed with */
+  double radians;                 /* per unit of angle in the file; 0: not stated */
+  int asked_for_unit;             /* the missing unit has been reported */
+  ambulo_model *model;            /* NULL if it could not be loaded */
+  const ambulo__yaml_node *gait;  /* the section, or NULL */
+  const ambulo__yaml_node *grid;  /* time.grid, or NULL */
+  int has_duration;               /* time.duration is in the file */
+  int steps;                      /* of `gait`, 0 without */
+  int unlike_steps;               /* two step lengths or times that differ */
+  ambulo__model_setting *setting; /* [settings] overrides of the model file's keys */
+  int settings;
+  ambulo__problem_keys keys; /* of the file */
+  ambulo_problem_definition definition;
+  ambulo_options options;
+} ambulo__problem_reader;
+
+/* Zero-filled memory that lives as long as the reader; NULL sets reader->failure, and later faults
+ * of the document, which may come of it, are not told. */
+void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t size);
+/* `name`, which stands at `node`, seen from the reader's directory; or the shipped file. */
+const char *ambulo__reader_path(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                const char *name);
+/* Frees blocks and model. */
+void ambulo__reader_clear(ambulo__problem_reader *reader);
+
+/* The mapping under a key of the root; NULL (reported unless absent) for anything else. */
+const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key);
+
+/* A value of coordinate i or of its rates in SI units and radians; the file's unit of angle
+ * applies to revolute coordinates. */
+double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                     int i);
+
+/* Called with the model loaded: */
+void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `gait:` or `contacts:`; after the time, which it may complete. */
+void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `gait.phases`: heel_strike, foot_flat, heel_off, toe_off of a walk at `speed`, m/s, and in
+ * reader->keys how they go with it. 0 after an error. */
+int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
+                        double value[AMBULO__PHASES]);
+/* A step length {comfortable, slope}, m, at `speed` (NaN: the file has none), and in reader->keys
+ * how it goes with it. 1 after an error. */
+double ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                double speed);
+/* The speed number of a walk at `speed`, m/s, in reader->keys; none without stature or gravity. A
+ * speed that could not be read is a comfortable one. */
+void ambulo__read_speed_number(ambulo__problem_reader *reader, double speed);
+void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `written_for`, before all that it scales; and what it scales, once all is read. */
+void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+void ambulo__scale_to_subject(ambulo__problem_reader *reader);
+void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* The rows' tolerances and the clearance, keys of `constraints`. */
+void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
+void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* An item of `load` that hands hold, at the end of definition.holds, of which there are at most
+ * AMBULO__MOST_LOADS. */
+void ambulo__read_hold(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* An angle that belongs to no coordinate, in the file's unit. */
+double ambulo__read_plain_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                double fallback);
+/* After the schedule. */
+void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
+void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* A tracking reference: the file's motion at the nodes, [intervals + 1][d], and the scale of
+ * the coordinates it lacks set to 0. After all that events depend on: schedule, constraints, ends.
+ * NULL when something was wrong. */
+const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, double *scale);
+/* The same at `samples` equally spaced times from 0 to the duration. */
+const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, int samples,
+                                          double *scale);
+/* `constraints.collision`, `constraints.reach`, `obstacles`. */
+void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `devices`: springs, dampers and actuators that the body wears. */
+void ambulo__read_devices(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
+/* `constraints.tubes`; after the time and the schedule. */
+void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+
+#endif

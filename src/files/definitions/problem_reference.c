@@ -1,0 +1,181 @@
+/* definitions/problem_reference.c - the reference motion of a tracking term, at the time nodes, or
+ * of a tube, at equal time steps.
+ *
+ * The file's first time counts as t = 0 and it must last as long as the problem. Between
+ * its rows the motion is interpolated linearly. Coordinates it does not have are not
+ * tracked (scale 0).
+ */
+#include "definitions/problem_reader.h"
+
+#include "formats/motion_columns.h"
+#include "formats/motion_units.h"
+#include "contact/phases.h"
+
+#include <math.h>
+
+/* column of each coordinate, or -1; NULL after a failure */
+static int *find_columns(ambulo__problem_reader *reader, const ambulo__motion *motion,
+                         const char *path, const ambulo__yaml_node *node) {
+  int count = ambulo_model_coordinate_count(reader->model);
+  int *column = ambulo__reader_alloc(reader, (size_t)count, sizeof *column);
+  for (int i = 0; column && i < count; i++) {
+    ambulo_status status =
+        ambulo__motion_find(motion, path, ambulo_model_coordinate(reader->model, i)->name,
+                            AMBULO__ORDER_VALUE, reader->diagnostics, &column[i]);
+    if (!status) continue;
+    reader->failure = status;
+    (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);
+    return NULL;
+  }
+  return column;
+}
+
+static void to_radians(ambulo__problem_reader *reader, ambulo__motion *motion, const int *column) {
+  unsigned char *is_angle = ambulo__reader_alloc(reader, (size_t)motion->columns, 1);
+  if (!is_angle) return;
+  for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
+    if (column[i] >= 0 && ambulo_model_coordinate(reader->model, i)->type == AMBULO_REVOLUTE)
+      is_angle[column[i]] = 1;
+  }
+  ambulo__motion_to_radians(motion, is_angle);
+}
+
+/* degrees that nobody declared would be followed as radians, without a word */
+static void doubt_units(const ambulo__problem_reader *reader, const ambulo__motion *motion,
+                        const int *column, const ambulo__yaml_node *node) {
+  for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(reader->model, i);
+    double bound = ambulo__largest_plausible(c);
+    for (int k = 0; column[i] >= 0 && k < motion->rows; k++) {
+      double value = motion->values[(size_t)k * (size_t)motion->columns + (size_t)column[i]];
+      if (fabs(value) <= bound) continue;
+      int angle = c->type == AMBULO_REVOLUTE;
+      ambulo__yaml_warning(node,
+                           angle ? "a file in degrees says so: '# inDegrees=yes' in a CSV, "
+                                   "'inDegrees=yes' in the header of an STO or MOT"
+                                 : "lengths are in metres",
+                           "the reference has '%s' at %g %s, range %g to %g %s", c->name, value,
+                           angle ? "rad" : "m", c->range[0], c->range[1], angle ? "rad" : "m");
+      return;
+    }
+  }
+}
+
+/* milliseconds pass for seconds where the whole problem lies within the first row's step */
+static void doubt_times(const ambulo__motion *motion, double duration,
+                        const ambulo__yaml_node *node) {
+  double step = motion->rows > 1 ? motion->time[1] - motion->time[0] : 0.0;
+  if (step <= 1.5 * duration) return;
+  ambulo__yaml_warning(node, "times are in seconds",
+                       "the reference has a row every %g s; the problem lasts %g s", step,
+                       duration);
+}
+
+/* value of a column at `time` of the file */
+static double sample(const ambulo__motion *motion, int column, double time) {
+  int low = 0, high = motion->rows - 1;
+  if (high == 0) return motion->values[column];
+  while (high - low > 1) {
+    int middle = low + (high - low) / 2;
+    if (motion->time[middle] <= time) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double s = (time - motion->time[low]) / (motion->time[high] - motion->time[low]);
+  s = s < 0.0 ? 0.0 : s > 1.0 ? 1.0 : s;
+  const double *values = motion->values + column;
+  double a = values[(size_t)low * (size_t)motion->columns];
+  double b = values[(size_t)high * (size_t)motion->columns];
+  return a + s * (b - a);
+}
+
+/* Where a reference is asked for, from its first time on. */
+typedef struct sampling {
+  int samples;
+  const double *times; /* [samples], s; NULL: equally spaced over the duration */
+} sampling;
+
+static const double *resample(ambulo__problem_reader *reader, const ambulo__motion *motion,
+                              const int *column, const ambulo__yaml_node *node,
+                              const sampling *wanted, double *scale) {
+  const ambulo_problem_definition *d = &reader->definition;
+  int coordinates = ambulo_model_coordinate_count(reader->model), found = 0;
+  int samples = wanted->samples;
+  double *reference =
+      ambulo__reader_alloc(reader, (size_t)samples * (size_t)coordinates, sizeof *reference);
+  if (!reference) return NULL;
+  for (int i = 0; i < coordinates; i++) {
+    if (column[i] < 0) {
+      scale[i] = 0.0;
+      continue;
+    }
+    found++;
+    for (int k = 0; k < samples; k++) {
+      double time =
+          wanted->times ? wanted->times[k] : (double)k * d->duration / (double)(samples - 1);
+      time += motion->time[0];
+      reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column[i], time);
+    }
+  }
+  if (found > 0) return reference;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                           "the reference has no column named after a coordinate of the model");
+  return NULL;
+}
+
+static const double *read_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                 const sampling *wanted, double *scale) {
+  const char *name = ambulo__yaml_file_name(node);
+  const char *path = name[0] ? ambulo__reader_path(reader, node, name) : NULL;
+  if (!path) return NULL;
+  ambulo__motion *motion = NULL;
+  ambulo_status status =
+      ambulo__motion_read(path, &reader->allocator, reader->diagnostics, &motion);
+  if (status) {
+    reader->failure = status;
+    (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);
+    return NULL;
+  }
+  const double *reference = NULL;
+  double lasts = motion->rows > 0 ? motion->time[motion->rows - 1] - motion->time[0] : 0.0;
+  double duration = reader->definition.duration;
+  if (motion->rows < 1 || lasts < duration - 1e-6 * duration) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "the reference lasts %.6g s; expected at least the duration, %.6g s",
+                             lasts, duration);
+  } else {
+    const int *column = find_columns(reader, motion, path, node);
+    if (column) to_radians(reader, motion, column);
+    if (column) doubt_units(reader, motion, column, node);
+    doubt_times(motion, duration, node);
+    if (motion->declared_columns >= 0 && motion->declared_columns != motion->columns + 1)
+      ambulo__yaml_warning(node, NULL,
+                           "the reference has %d columns; its header says %d (nColumns)",
+                           motion->columns + 1, motion->declared_columns);
+    if (column) reference = resample(reader, motion, column, node, wanted, scale);
+  }
+  ambulo__motion_free(motion);
+  return reference;
+}
+
+const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, double *scale) {
+  const ambulo_problem_definition *d = &reader->definition;
+  sampling nodes = {d->intervals + 1, NULL};
+  if (d->grid != AMBULO_GRID_UNIFORM) {
+    double *times = ambulo__reader_alloc(reader, (size_t)nodes.samples, sizeof *times);
+    if (!times) return NULL;
+    /* too few intervals are told when the problem is built */
+    if (ambulo__node_times(d, &reader->allocator, NULL, times) == AMBULO_OK) nodes.times = times;
+  }
+  return read_motion(reader, node, &nodes, scale);
+}
+
+const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, int samples,
+                                          double *scale) {
+  sampling equal = {samples, NULL};
+  return read_motion(reader, node, &equal, scale);
+}

@@ -1,0 +1,258 @@
+/* formats/atomic_folder.c - a result folder filled beside its place (atomic_file.h).
+ *
+ * POSIX renames a folder only onto an empty one, so replacing takes two renames: the old
+ * folder steps aside, the new one takes its place, the old one is removed. If the second
+ * rename fails the old one is put back. */
+#include "formats/atomic_file.h"
+#include "formats/file_steps.h"
+#include "formats/output_check.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define NAME_ATTEMPTS 100
+/* result folders are flat or nearly so; a deeper tree is not one */
+#define REMOVE_DEPTH 8
+
+struct ambulo__folder {
+  ambulo_allocator allocator;
+  char *path, *parent, *temporary;
+  const ambulo__folder_mark *mark; /* may be NULL */
+  int created;
+};
+
+static int is_dot(const char *name) {
+  return strcmp(name, ".") == 0 || strcmp(name, "..") == 0;
+}
+
+/* needs no memory, so that cleaning up cannot fail for want of it; links are removed, not
+ * followed */
+static void remove_tree(int parent, const char *name, int depth) {
+  int file = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  DIR *stream = file >= 0 ? fdopendir(file) : NULL;
+  if (file >= 0 && !stream) close(file);
+  if (stream) {
+    for (struct dirent *entry = readdir(stream); entry; entry = readdir(stream)) {
+      if (is_dot(entry->d_name) || unlinkat(file, entry->d_name, 0) == 0) continue;
+      if (depth < REMOVE_DEPTH) remove_tree(file, entry->d_name, depth + 1);
+    }
+    closedir(stream);
+  }
+  unlinkat(parent, name, AT_REMOVEDIR);
+}
+
+/* 1 empty, 0 not, -1 with errno */
+static int folder_is_empty(const char *path) {
+  DIR *stream = opendir(path);
+  if (!stream) return -1;
+  int empty = 1;
+  for (struct dirent *entry = readdir(stream); entry && empty; entry = readdir(stream)) {
+    empty = is_dot(entry->d_name);
+  }
+  closedir(stream);
+  return empty;
+}
+
+static ambulo_status expect_mark(const ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
+  const ambulo__folder_mark *mark = folder->mark;
+  ambulo__place place = {.file = folder->path};
+  struct stat info;
+  char *path = ambulo__join_path(&folder->allocator, folder->path, mark->file);
+  if (!path) return ambulo__io_memory_error(diagnostics, folder->path);
+  int found = lstat(path, &info) == 0 && S_ISREG(info.st_mode);
+  int ours = found && ambulo__file_says(path, mark->text, 256);
+  ambulo__free(&folder->allocator, path);
+  if (ours) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                       "the folder is not empty and holds no '%s'%s: it is not an earlier result "
+                       "and is not replaced",
+                       mark->file, found ? " of ambulo's" : "");
+}
+
+static ambulo_status expect_nothing_else(const ambulo__folder *folder,
+                                         ambulo_diagnostics *diagnostics) {
+  const ambulo__folder_mark *mark = folder->mark;
+  ambulo__place place = {.file = folder->path};
+  ambulo_status status = AMBULO_OK;
+  DIR *stream = opendir(folder->path);
+  if (!stream) return ambulo__io_error(diagnostics, folder->path, "read the folder");
+  for (struct dirent *entry = readdir(stream); entry && !status; entry = readdir(stream)) {
+    int known = is_dot(entry->d_name);
+    for (int i = 0; i < mark->count && !known; i++)
+      known = strcmp(entry->d_name, mark->names[i]) == 0;
+    if (known) continue;
+    status = ambulo__error(diagnostics, AMBULO_E_IO, place, "move it elsewhere first",
+                           "the folder also holds '%s', which ambulo did not write and which would "
+                           "be lost; it is not replaced",
+                           entry->d_name);
+  }
+  closedir(stream);
+  return status;
+}
+
+/* *occupied: a folder that must step aside stands at the target */
+static ambulo_status inspect_target(const ambulo__folder *folder, ambulo_diagnostics *diagnostics,
+                                    int *occupied) {
+  ambulo__place place = {.file = folder->path};
+  struct stat info;
+  *occupied = 0;
+  if (lstat(folder->path, &info) != 0) {
+    return errno == ENOENT ? AMBULO_OK : ambulo__io_error(diagnostics, folder->path, "inspect");
+  }
+  if (!S_ISDIR(info.st_mode)) {
+    return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                         "exists and is not a folder; expected a new or empty folder");
+  }
+  int empty = folder_is_empty(folder->path);
+  if (empty < 0) return ambulo__io_error(diagnostics, folder->path, "read the folder");
+  if (empty) return AMBULO_OK;
+  if (!folder->mark) {
+    return ambulo__error(diagnostics, AMBULO_E_IO, place,
+                         "--force (in C: overwrite) replaces an earlier result",
+                         "the folder exists and is not empty; expected a new or empty folder");
+  }
+  ambulo_status status = expect_mark(folder, diagnostics);
+  if (!status) status = expect_nothing_else(folder, diagnostics);
+  if (status) return status;
+  *occupied = 1;
+  return AMBULO_OK;
+}
+
+static void folder_free(ambulo__folder *folder) {
+  ambulo_allocator allocator = folder->allocator;
+  ambulo__free(&allocator, folder->path);
+  ambulo__free(&allocator, folder->parent);
+  ambulo__free(&allocator, folder->temporary);
+  ambulo__free(&allocator, folder);
+}
+
+void ambulo__folder_abort(ambulo__folder *folder) {
+  if (!folder) return;
+  if (folder->created) remove_tree(AT_FDCWD, folder->temporary, 0);
+  folder_free(folder);
+}
+
+static ambulo_status create_temporary(ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
+  for (int k = 0; k < NAME_ATTEMPTS; k++) {
+    ambulo__free(&folder->allocator, folder->temporary);
+    folder->temporary = ambulo__sibling_name(&folder->allocator, folder->path, "tmp", k);
+    if (!folder->temporary) return ambulo__io_memory_error(diagnostics, folder->path);
+    if (mkdir(folder->temporary, 0777) == 0) {
+      folder->created = 1;
+      return AMBULO_OK;
+    }
+    if (errno != EEXIST) break;
+  }
+  return ambulo__io_error(diagnostics, folder->path, "create");
+}
+
+ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *mark,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo__folder **folder) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_status status = ambulo__expect_path(path, "folder to write", diagnostics);
+  if (status) return status;
+  ambulo__folder *f = ambulo__alloc(&own, 1, sizeof *f);
+  if (!f) return ambulo__io_memory_error(diagnostics, path);
+  f->allocator = own;
+  f->path = ambulo__strdup(&own, path);
+  f->mark = mark;
+  if (!f->path) {
+    ambulo__folder_abort(f);
+    return ambulo__io_memory_error(diagnostics, path);
+  }
+  /* "out/" and "out" are one place; the temporary must be a sibling, not a child */
+  for (size_t n = strlen(f->path); n > 1 && f->path[n - 1] == '/'; n--) f->path[n - 1] = '\0';
+  int occupied;
+  status = inspect_target(f, diagnostics, &occupied);
+  if (status == AMBULO_OK) {
+    f->parent = ambulo__parent_path(&own, f->path);
+    status =
+        f->parent ? create_temporary(f, diagnostics) : ambulo__io_memory_error(diagnostics, path);
+  }
+  if (status != AMBULO_OK) {
+    ambulo__folder_abort(f);
+    return status;
+  }
+  *folder = f;
+  return AMBULO_OK;
+}
+
+static int write_and_flush(const char *path, const char *data, size_t length) {
+  int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) return -1;
+  int failed = ambulo__write_all(file, data, length) != 0 || fsync(file) != 0;
+  int reason = errno;
+  if (close(file) != 0 && !failed) return -1;
+  errno = reason;
+  return failed ? -1 : 0;
+}
+
+/* The folder is a temporary as a whole, so its files need none of their own, and its entries are
+ * flushed once, by the commit. */
+ambulo_status ambulo__folder_write(ambulo__folder *folder, const char *name, const char *data,
+                                   size_t length, ambulo_diagnostics *diagnostics) {
+  if (name[0] == '\0' || is_dot(name) || strchr(name, '/')) return AMBULO_E_ARGUMENT;
+  char *path = ambulo__join_path(&folder->allocator, folder->temporary, name);
+  if (!path) return ambulo__io_memory_error(diagnostics, name);
+  ambulo_status status = AMBULO_OK;
+  if (write_and_flush(path, data, length) != 0) {
+    status = ambulo__io_error(diagnostics, path, "write");
+    (void)unlink(path);
+  }
+  ambulo__free(&folder->allocator, path);
+  return status;
+}
+
+/* renames the old result away; *aside is its new name */
+static ambulo_status step_aside(const ambulo__folder *folder, ambulo_diagnostics *diagnostics,
+                                char **aside) {
+  for (int k = 0; k < NAME_ATTEMPTS; k++) {
+    char *name = ambulo__sibling_name(&folder->allocator, folder->path, "old", k);
+    if (!name) return ambulo__io_memory_error(diagnostics, folder->path);
+    if (rename(folder->path, name) == 0) {
+      *aside = name;
+      return AMBULO_OK;
+    }
+    int reason = errno;
+    ambulo__free(&folder->allocator, name);
+    errno = reason;
+    if (reason != EEXIST && reason != ENOTEMPTY) break;
+  }
+  return ambulo__io_error(diagnostics, folder->path, "replace");
+}
+
+static ambulo_status move_into_place(ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
+  char *aside = NULL;
+  int occupied;
+  ambulo_status status = inspect_target(folder, diagnostics, &occupied);
+  if (status == AMBULO_OK && occupied) status = step_aside(folder, diagnostics, &aside);
+  if (status != AMBULO_OK) return status;
+  if (rename(folder->temporary, folder->path) != 0) {
+    status = ambulo__io_error(diagnostics, folder->path, "create");
+    if (aside) (void)rename(aside, folder->path);
+  } else {
+    folder->created = 0;
+    if (aside) remove_tree(AT_FDCWD, aside, 0);
+    if (ambulo__sync_folder(folder->parent) != 0) {
+      status = ambulo__io_error(diagnostics, folder->path, "flush the folder of");
+    }
+  }
+  ambulo__free(&folder->allocator, aside);
+  return status;
+}
+
+ambulo_status ambulo__folder_commit(ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
+  ambulo_status status = AMBULO_OK;
+  if (ambulo__sync_folder(folder->temporary) != 0) {
+    status = ambulo__io_error(diagnostics, folder->path, "flush to disk");
+  }
+  if (status == AMBULO_OK) status = move_into_place(folder, diagnostics);
+  ambulo__folder_abort(folder);
+  return status;
+}

@@ -1,0 +1,73 @@
+/* formats/motion_file.h - a motion as a table: named columns over time.
+ *
+ * Formats, one header row and numbers with '.' below it:
+ *   CSV  cells separated by ',', lines that start with '#' are comments
+ *   STO, MOT (OpenSim)  a title and key=value lines up to "endheader", then columns
+ *        separated by tabs or spaces; inDegrees=yes|no states the unit of angles, which are in
+ *        degrees where there is no version=... either, as OpenSim takes files of SIMM. nRows, where
+ *        given, must agree with the table (a cut-off file is noticed); nColumns should.
+ * A comment "# inDegrees=yes" says the same in a CSV. The first column is "time" (s),
+ * strictly increasing (but rows of an STO that repeat the one before, which are left out); names
+ * are unique; every number is finite, except that points of the
+ * ground that do not exist (columns "zmp.*", "cop.*") are "nan". CRLF, a byte-order mark,
+ * empty lines and a missing final newline are accepted.
+ *
+ * Tables that ambulo writes say in their first line whose motion they hold (motion_csv.h). */
+#ifndef AMBULO_FORMATS_MOTION_FILE_H
+#define AMBULO_FORMATS_MOTION_FILE_H
+
+#include "base/alloc.h"
+#include "base/diagnostics.h"
+
+#define AMBULO__MOTION_MAX_BYTES ((size_t)64 * 1024 * 1024)
+#define AMBULO__MOTION_MAX_COLUMNS 4096
+#define AMBULO__MOTION_MAX_NAME 255
+
+typedef struct ambulo__motion {
+  ambulo_allocator allocator;
+  int rows, columns; /* columns: without time */
+  int in_degrees;    /* 1: angles are in degrees, as in the file or by SIMM's custom; 0: radians */
+  int unit_stated;   /* 1: the file says which */
+  int declared_columns; /* as the header says, with time; -1: it does not. Published files are wrong
+                           about it; rows of another length than the names are faults */
+  double body_mass;     /* kg, of a table by ambulo; NaN: not stated */
+  double gravity[3];    /* m/s^2, with body_mass */
+  char **names;         /* [columns] */
+  double *time;         /* [rows], s */
+  double *values;       /* [rows][columns] */
+} ambulo__motion;
+
+typedef enum ambulo__motion_format {
+  AMBULO__MOTION_AUTO, /* by the name's ending (.csv, .sto, .mot), else by "endheader" */
+  AMBULO__MOTION_CSV,
+  AMBULO__MOTION_STO
+} ambulo__motion_format;
+
+/* Zero-filled table with copied names. Errors: E_ARGUMENT, E_MEMORY. */
+ambulo_status ambulo__motion_create(int rows, int columns, const char *const *names,
+                                    const ambulo_allocator *allocator, ambulo__motion **motion);
+void ambulo__motion_free(ambulo__motion *motion); /* accepts NULL */
+
+/* Errors: E_IO, E_LIMIT (size, columns), E_PARSE (shape of the text), E_SCHEMA (names,
+ * numbers, times), E_MEMORY. All faults of a file are reported in one go. */
+ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion);
+/* The same, but any cell below a name may be "nan": measured forces have gaps. */
+ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion);
+/* Both, of a text under that name (table_read.c); gaps: as ambulo__motion_read_gaps. */
+ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
+                                 ambulo__motion_format format, int gaps,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo__motion **motion);
+/* Format that a file name asks for: AUTO when its ending is none of the known. */
+ambulo__motion_format ambulo__motion_format_of(const char *name);
+
+/* Column of a name, or -1; those of coordinates: motion_columns.h. */
+int ambulo__motion_column(const ambulo__motion *motion, const char *name);
+
+/* Degrees to radians in the columns with is_angle[column] != 0, if the table is in degrees;
+ * in_degrees is cleared. */
+void ambulo__motion_to_radians(ambulo__motion *motion, const unsigned char *is_angle);
+
+#endif

@@ -1,0 +1,203 @@
+/* formats/yaml_node.c - a document: loading, walking, places and messages. */
+#include "formats/yaml_tree.h"
+
+#include "base/numtext.h"
+#include "formats/read_file.h"
+#include "formats/foreign_format.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_PATH = 512, MAX_MESSAGE = 1024 };
+
+/* --------------------------------------------------------------------- loading */
+
+static ambulo_status check_root(const ambulo__yaml *document, size_t length) {
+  static const char *const kinds[] = {"scalar", "sequence", "mapping"};
+  const ambulo__yaml_node *root = document->root;
+  ambulo__place place = {document->file, 1, 1, NULL};
+  if (!root || (root->kind == AMBULO__YAML_SCALAR && !root->quoted && root->text[0] == '\0')) {
+    return ambulo__error(document->diagnostics, AMBULO_E_PARSE, place, NULL,
+                         "%s; expected YAML: lines 'key: value'",
+                         length ? "nothing but blank lines and comments" : "the file is empty");
+  }
+  if (root->kind != AMBULO__YAML_MAPPING) {
+    return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, ambulo__yaml_place(root),
+                         "the file should hold YAML: lines 'key: value'",
+                         "got a %s at the top level; expected a mapping", kinds[root->kind]);
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status fill(ambulo__yaml *document, const char *text, size_t length,
+                          const char *name) {
+  ambulo__place place = {name, 0, 0, NULL};
+  if (length > AMBULO__YAML_MAX_BYTES) {
+    return ambulo__error(document->diagnostics, AMBULO_E_LIMIT, place, NULL,
+                         "text too large (got %zu bytes); expected at most %d", length,
+                         AMBULO__YAML_MAX_BYTES);
+  }
+  if (name) {
+    document->file = ambulo__yaml_copy(document, name, strlen(name));
+    if (!document->file) {
+      return ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL,
+                           "cannot allocate memory for the document");
+    }
+  }
+  ambulo_status status = ambulo__refuse_foreign(text, length, AMBULO__TAKES_YAML, document->file,
+                                                document->diagnostics);
+  if (status == AMBULO_OK)
+    status = ambulo__yaml_parse(document, text, length, document->file, 0, &document->root);
+  return status == AMBULO_OK ? check_root(document, length) : status;
+}
+
+ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char *name,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo__yaml **document) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__yaml *made = ambulo__alloc(&own, 1, sizeof *made);
+  if (!made) {
+    ambulo__place place = {name, 0, 0, NULL};
+    return ambulo__error(diagnostics, AMBULO_E_MEMORY, place, NULL,
+                         "cannot allocate memory for the document");
+  }
+  made->allocator = own;
+  made->diagnostics = diagnostics;
+  ambulo_status status = fill(made, text, length, name);
+  if (status == AMBULO_OK) {
+    *document = made;
+  } else {
+    ambulo__yaml_free(made);
+  }
+  return status;
+}
+
+ambulo_status ambulo__yaml_load(const char *path, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo__yaml **document) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status =
+      ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, &own, diagnostics, &text, &length);
+  if (status != AMBULO_OK) return status;
+  status = ambulo__yaml_load_text(text, length, path, &own, diagnostics, document);
+  ambulo__free(&own, text);
+  return status;
+}
+
+/* --------------------------------------------------------------------- walking */
+
+const ambulo__yaml_node *ambulo__yaml_root(const ambulo__yaml *document) {
+  return document->root;
+}
+
+const char *ambulo__yaml_file(const ambulo__yaml *document) {
+  return document->file;
+}
+
+ambulo_status ambulo__yaml_finish(const ambulo__yaml *document) {
+  return document->status;
+}
+
+int ambulo__yaml_is(const ambulo__yaml_node *node, ambulo__yaml_kind kind) {
+  return node && node->kind == kind;
+}
+
+static const ambulo__yaml_node *child(const ambulo__yaml_node *node, ambulo__yaml_kind kind,
+                                      int index) {
+  if (!node || node->kind != kind || index < 0 || index >= node->count) return NULL;
+  return node->items[index];
+}
+
+const ambulo__yaml_node *ambulo__yaml_item(const ambulo__yaml_node *sequence, int index) {
+  return child(sequence, AMBULO__YAML_SEQUENCE, index);
+}
+
+const char *ambulo__yaml_key(const ambulo__yaml_node *mapping, int index) {
+  const ambulo__yaml_node *value = child(mapping, AMBULO__YAML_MAPPING, index);
+  return value ? value->key->text : "";
+}
+
+const ambulo__yaml_node *ambulo__yaml_value(const ambulo__yaml_node *mapping, int index) {
+  return child(mapping, AMBULO__YAML_MAPPING, index);
+}
+
+/* FNV-1a: spares most comparisons of texts */
+ambulo__yaml_node *ambulo__yaml_find(const ambulo__yaml_node *mapping, const char *key) {
+  if (!mapping || mapping->kind != AMBULO__YAML_MAPPING) return NULL;
+  uint32_t hash = ambulo__yaml_hash(key);
+  for (int i = 0; i < mapping->count; i++) {
+    ambulo__yaml_node *value = mapping->items[i];
+    if (value->key->hash == hash && strcmp(value->key->text, key) == 0) return value;
+  }
+  return NULL;
+}
+
+/* --------------------------------------------------------- places and messages */
+
+/* Writes "links[3].body.mass" from right to left; the beginning of a path that is too
+ * long is lost. */
+static const char *write_path(const ambulo__yaml_node *node, char buffer[MAX_PATH]) {
+  size_t at = MAX_PATH - 1;
+  buffer[at] = '\0';
+  for (; node->parent; node = node->parent) {
+    char part[MAX_PATH];
+    int named = node->key != NULL;
+    if (named) {
+      (void)snprintf(part, sizeof part, "%s%s", node->parent->parent ? "." : "", node->key->text);
+    } else {
+      (void)snprintf(part, sizeof part, "[%d]", node->index);
+    }
+    size_t length = strlen(part);
+    if (length > at) break;
+    at -= length;
+    memcpy(buffer + at, part, length);
+  }
+  return buffer + at;
+}
+
+ambulo__place ambulo__yaml_place(const ambulo__yaml_node *node) {
+  char buffer[MAX_PATH];
+  if (!node) return ambulo__nowhere;
+  const char *path = write_path(node, buffer);
+  ambulo__place place = {node->file, node->line, node->column, NULL};
+  if (path[0] != '\0') place.path = ambulo__yaml_copy(node->document, path, strlen(path));
+  return place;
+}
+
+ambulo_status ambulo__yaml_error(const ambulo__yaml_node *node, ambulo_status status,
+                                 const char *hint, const char *format, ...) {
+  char message[MAX_MESSAGE];
+  va_list arguments;
+  if (!node) return status;
+  va_start(arguments, format);
+  (void)vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  ambulo__yaml *document = node->document;
+  if (document->status == AMBULO_E_MEMORY) return status;
+  if (document->status == AMBULO_OK || document->status == AMBULO_E_SCHEMA ||
+      status == AMBULO_E_MEMORY)
+    document->status = status;
+  return ambulo__error(document->diagnostics, status, ambulo__yaml_place(node), hint, "%s",
+                       message);
+}
+
+void ambulo__yaml_out_of_memory(ambulo__yaml *document) {
+  ambulo__place place = {document->file, 0, 0, NULL};
+  if (document->status == AMBULO_E_MEMORY) return;
+  document->status = AMBULO_E_MEMORY;
+  (void)ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL, "%s",
+                      ambulo_status_text(AMBULO_E_MEMORY));
+}
+
+void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const char *format,
+                          ...) {
+  char message[MAX_MESSAGE];
+  va_list arguments;
+  if (!node) return;
+  va_start(arguments, format);
+  (void)vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  ambulo__warning(node->document->diagnostics, ambulo__yaml_place(node), hint, "%s", message);
+}

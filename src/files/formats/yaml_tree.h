@@ -1,0 +1,85 @@
+/* formats/yaml_tree.h - what the yaml_*.c files share: the nodes and their memory.
+ *
+ * A document owns a chain of memory chunks; nodes, texts and paths are cut from them and
+ * freed together, so that a tree abandoned half-way needs no unwinding. Nodes are handed
+ * out as const; what the getters must write (known keys, messages) stands behind pointers. */
+#ifndef AMBULO_FORMATS_YAML_TREE_H
+#define AMBULO_FORMATS_YAML_TREE_H
+
+#include "base/alloc.h"
+#include "formats/yaml_node.h"
+
+#include <stdint.h>
+
+enum {
+  AMBULO__YAML_MAX_DEPTH = 32,
+  AMBULO__YAML_MAX_KEYS = 1024,    /* of one mapping: lookups compare one by one */
+  AMBULO__YAML_MAX_NODES = 1000000 /* about 130 MB */
+};
+
+typedef struct ambulo__yaml_key_text {
+  const char *text;
+  uint32_t hash;
+  int line, column;
+  int known; /* somebody asked for it */
+} ambulo__yaml_key_text;
+
+/* keys that were asked for in a mapping, there or not: candidates for "did you mean" */
+typedef struct ambulo__yaml_marks {
+  const char **names;
+  size_t count, capacity;
+} ambulo__yaml_marks;
+
+struct ambulo__yaml_node {
+  ambulo__yaml *document;
+  ambulo__yaml_node *parent; /* NULL: root */
+  ambulo__yaml_kind kind;
+  int quoted;                             /* scalar in quotes or a block scalar: never a number */
+  int line, column;                       /* 1-based; 0: set by ambulo__yaml_set() */
+  int index;                              /* among the children of the parent */
+  int count;                              /* children */
+  const char *file;                       /* where it was read from */
+  const char *text;                       /* scalars */
+  ambulo__yaml_node **items;              /* children, in file order */
+  ambulo__yaml_key_text *key;             /* values of a mapping */
+  ambulo__yaml_marks *marks;              /* mappings */
+  ambulo__yaml_node *first, *last, *next; /* children while the tree grows */
+};
+
+typedef struct ambulo__yaml_chunk ambulo__yaml_chunk;
+
+struct ambulo__yaml {
+  ambulo_allocator allocator;
+  ambulo_diagnostics *diagnostics; /* may be NULL */
+  ambulo__yaml_chunk *chunks;
+  const char *file;
+  ambulo__yaml_node *root;
+  int node_count;
+  ambulo_status status;                /* of the getters */
+  const ambulo__yaml_node *wrong_kind; /* reported last: once is enough */
+};
+
+/* Zero-filled, aligned for any member above; NULL when memory runs out. */
+void *ambulo__yaml_allocate(ambulo__yaml *document, size_t count, size_t size);
+/* Copy of text[0..length) with a NUL; NULL when memory runs out. */
+char *ambulo__yaml_copy(ambulo__yaml *document, const char *text, size_t length);
+uint32_t ambulo__yaml_hash(const char *text);
+/* The value of a key, NULL when absent; marks nothing. */
+ambulo__yaml_node *ambulo__yaml_find(const ambulo__yaml_node *mapping, const char *key);
+
+/* Parses a whole text into a tree of `document`. `base_depth` collections are already open
+ * around it. Leaves *root NULL for a text without content. Faults go to the diagnostics
+ * of the document under the name `file`, which must live as long as the document. */
+ambulo_status ambulo__yaml_parse(ambulo__yaml *document, const char *text, size_t length,
+                                 const char *file, int base_depth, ambulo__yaml_node **root);
+
+/* Refuses bytes that are no YAML text (invalid UTF-8, control characters, directives) with
+ * their line and column, before the parser sees them. */
+ambulo_status ambulo__yaml_scan(ambulo_diagnostics *diagnostics, const char *text, size_t length,
+                                const char *file);
+/* Whether a line (1-based) is indented with a tab. */
+int ambulo__yaml_tab_indent(const char *text, size_t length, int line);
+/* Byte at a line and a column, which counts characters (both 1-based); '\0' beyond the text. */
+char ambulo__yaml_byte_at(const char *text, size_t length, int line, int column);
+
+#endif

@@ -1,0 +1,118 @@
+/* people/compare_cycles.c - see compare_cycles.h. */
+#include "people/compare_cycles.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "formats/atomic_file.h"
+#include "formats/output_check.h"
+#include "base/text_buffer.h"
+
+enum { POINTS = 101 };
+
+typedef struct cycles {
+  const ambulo_allocator *allocator;
+  ambulo__map map;                 /* of all curves */
+  double *values, *deviations;     /* [curves][POINTS] */
+  const ambulo__map_entry **entry; /* [curves] */
+  int *strides;                    /* [curves] */
+  int count;
+} cycles;
+
+ambulo_status ambulo__cycles_check(const char *motion, const char *people,
+                                   const ambulo_compare_options *options,
+                                   ambulo_diagnostics *diagnostics) {
+  const char *inputs[] = {motion, people, options->forces};
+  if (!options->cycles) return AMBULO_OK;
+  return ambulo__output_check(options->cycles, inputs, 3, options->overwrite, diagnostics);
+}
+
+/* 1 for entries that go by the curve's own name */
+static int is_own(const ambulo__map_entry *entry) {
+  return strcmp(entry->reference, entry->curve) == 0;
+}
+
+static ambulo_status collect(ambulo__sampler *sampler, cycles *c) {
+  double percents[POINTS];
+  for (int i = 0; i < POINTS; i++) percents[i] = (double)i;
+  for (int i = 0; i < c->map.count; i++) {
+    size_t at = (size_t)c->count * POINTS;
+    if (!is_own(&c->map.entries[i])) continue;
+    ambulo_status status =
+        ambulo__sample_curve(sampler, &c->map.entries[i], percents, POINTS, c->values + at,
+                             c->deviations + at, &c->strides[c->count]);
+    if (status) return status;
+    c->entry[c->count] = &c->map.entries[i];
+    c->count += c->strides[c->count] > 0;
+  }
+  return AMBULO_OK;
+}
+
+static void append_number(ambulo__text_buffer *text, double value) {
+  double rounded = round(value * 1e6) / 1e6;
+  ambulo__text_append(text, ",");
+  ambulo__text_append_number(text, rounded == 0.0 ? 0.0 : rounded);
+}
+
+static void print(const ambulo__sampler *sampler, const cycles *c, ambulo__text_buffer *text) {
+  const char *file = sampler->cycle->motion_path;
+  const ambulo__subject *subject = sampler->cycle->subject;
+  ambulo__text_append(text,
+                      AMBULO__OWN_MARK " cycles: percent of the cycle from heel strike to heel "
+                                       "strike; means over strides and feet\n");
+  ambulo__text_append_format(text, "# source: %s", file);
+  if (subject) {
+    int left = subject->count[0] - 1, right = subject->count[1] - 1;
+    ambulo__text_append_format(text, ", strides: %d left, %d right", left > 0 ? left : 0,
+                               right > 0 ? right : 0);
+  }
+  ambulo__text_append(text, "\npercent");
+  for (int i = 0; i < c->count; i++) {
+    ambulo__text_append_format(text, ",%s", c->entry[i]->reference);
+    if (c->strides[i] > 1 && subject)
+      ambulo__text_append_format(text, ",%s sd", c->entry[i]->reference);
+  }
+  ambulo__text_append(text, "\n");
+  for (int i = 0; i < c->count; i++) {
+    const char *unit = ambulo__curve_unit_name(c->entry[i]->unit);
+    ambulo__text_append_format(text, c->strides[i] > 1 && subject ? ",%s,%s" : ",%s", unit, unit);
+  }
+  for (int p = 0; p < POINTS; p++) {
+    ambulo__text_append_format(text, "\n%d", p);
+    for (int i = 0; i < c->count; i++) {
+      append_number(text, c->values[i * POINTS + p]);
+      if (c->strides[i] > 1 && subject) append_number(text, c->deviations[i * POINTS + p]);
+    }
+  }
+  ambulo__text_append(text, "\n");
+}
+
+ambulo_status ambulo__cycles_write(ambulo__sampler *sampler) {
+  const ambulo_allocator *a = &sampler->cycle->allocator;
+  const char *file = sampler->options->cycles;
+  cycles c = {.allocator = a};
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, a);
+  ambulo_status status = ambulo__map_default(AMBULO__LAYOUT_WIDE, a, &c.map);
+  size_t room = (size_t)c.map.count;
+  c.values = ambulo__alloc(a, room * POINTS, sizeof *c.values);
+  c.deviations = ambulo__alloc(a, room * POINTS, sizeof *c.deviations);
+  c.entry = ambulo__alloc(a, room, sizeof *c.entry);
+  c.strides = ambulo__alloc(a, room, sizeof *c.strides);
+  if (!status && (!c.values || !c.deviations || !c.entry || !c.strides)) status = AMBULO_E_MEMORY;
+  if (!status) status = collect(sampler, &c);
+  if (!status) {
+    print(sampler, &c, &text);
+    status = ambulo__text_status(&text);
+  }
+  if (!status)
+    status = ambulo__write_file(file, ambulo__text_data(&text), text.length, 1, a,
+                                sampler->cycle->diagnostics);
+  ambulo__text_free(&text);
+  ambulo__free(a, c.values);
+  ambulo__free(a, c.deviations);
+  ambulo__free(a, (void *)c.entry);
+  ambulo__free(a, c.strides);
+  ambulo__map_free(&c.map);
+  return status;
+}

@@ -1,0 +1,58 @@
+/* show/page.h - the data of a page: what its program is given to show.
+ *
+ *     {"results": [{"name", "packed"}, ...]}            of result folders
+ *     {"study": {"name", "motions": [...], "table"}}    of a batch folder (study_motions.h)
+ *
+ * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
+ * the files of the folder (docs/results.md), `strip` its gait.svg as a text. "table" is packed too.
+ * All of it is JSON for a <script> element (script_text.h). */
+#ifndef AMBULO_SHOW_PAGE_H
+#define AMBULO_SHOW_PAGE_H
+
+#include "ambulo/page.h"
+#include "base/diagnostics.h"
+#include "base/text_buffer.h"
+#include "formats/yaml_node.h"
+
+/* One file of a folder, read and found to be JSON of that schema: the value of its key `schema`
+ * begins with `schema`. */
+typedef struct ambulo__page_file {
+  ambulo_allocator allocator;
+  char *path, *text;
+  size_t length;
+  ambulo__yaml *document;
+} ambulo__page_file;
+/* Errors: E_IO, E_LIMIT, E_PARSE, E_SCHEMA, E_MEMORY. */
+ambulo_status ambulo__page_file_read(const char *directory, const char *name, const char *schema,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo__page_file *file);
+void ambulo__page_file_free(ambulo__page_file *file); /* accepts a zero-filled one */
+
+/* summary.json and scene.json of a result folder, of one and the same result. */
+typedef struct ambulo__page_result {
+  ambulo__page_file summary, scene;
+} ambulo__page_result;
+/* Errors: as of ambulo__page_file_read. */
+ambulo_status ambulo__page_result_read(const char *directory, const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics,
+                                       ambulo__page_result *result);
+void ambulo__page_result_free(ambulo__page_result *result); /* accepts a zero-filled one */
+
+/* Appends an item of "results"; `with_strip`: with its picture, where it has one. Errors: as of
+ * ambulo__page_result_read. */
+ambulo_status ambulo__page_add_result(const char *directory, int with_strip,
+                                      ambulo__text_buffer *out, ambulo_diagnostics *diagnostics);
+/* The same of a person's own motion (options.motion). Errors: as of ambulo__motion_read. */
+ambulo_status ambulo__page_add_motion(const ambulo_page_options *options, ambulo__text_buffer *out,
+                                      ambulo_diagnostics *diagnostics);
+
+/* 1 if a batch has filled the folder. */
+int ambulo__page_is_batch(const char *directory);
+/* Appends "study". `folder`: where the page will stand, for the ways to pictures of cases whose
+ * motion is not in it; `megabytes`: how large the page may be, of which `other` bytes are not data.
+ * Errors: as of ambulo_batch_collect, E_INTERNAL. */
+ambulo_status ambulo__page_add_study(const char *directory, const char *folder, double megabytes,
+                                     double other, ambulo__text_buffer *out,
+                                     ambulo_diagnostics *diagnostics);
+
+#endif

@@ -1,0 +1,193 @@
+/* show/report.c - the result folder, all or nothing.
+ *
+ * Reading order: report.c, summary_json.h, summary_json.c, history_json.h, devices_json.h,
+ * holds_json.h, solution_yaml.c, versions.c.
+ */
+#include "ambulo/report.h"
+
+#include <string.h>
+
+#include "base/sized.h"
+#include "formats/atomic_file.h"
+#include "formats/motion_csv.h"
+#include "contact/effector.h"
+#include "model/check.h"
+#include "show/gait_svg.h"
+#include "show/solution_yaml.h"
+#include "show/summary_json.h"
+#include "show/scene.h"
+#include "people/stride.h"
+
+static const char summary_name[] = "summary.json";
+
+/* only a folder of these files (the last is the page that `ambulo report` puts there) is taken for
+ * an earlier result and replaced */
+static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.sto",
+                                         "solution.yaml", "gait.svg",   "scene.json",
+                                         "report.html"};
+static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
+                                         sizeof file_names / sizeof *file_names};
+
+AMBULO__FILL(ambulo_report_options, {.size = size})
+
+/* NULL: the defaults. 0 when what was given is not valid */
+static int options_of(const ambulo_report_options *given, ambulo_report_options *options) {
+  return AMBULO__OWN(ambulo_report_options, options, given) && options->samples >= 0 &&
+         options->samples != 1;
+}
+
+static ambulo_status begin(const char *directory, const ambulo_report_options *options,
+                           const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                           ambulo__folder **folder) {
+  return ambulo__folder_begin(directory, options->overwrite ? &mark : NULL, allocator, diagnostics,
+                              folder);
+}
+
+ambulo_status ambulo_report_check(const char *directory, const ambulo_report_options *options,
+                                  ambulo_diagnostics *diagnostics) {
+  ambulo_report_options own;
+  if (!directory || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
+  ambulo__folder *folder = NULL;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status = begin(directory, &own, NULL, diagnostics, &folder);
+  if (!status) ambulo__folder_abort(folder);
+  return ambulo__conclude(diagnostics, errors, status, directory);
+}
+
+/* hands a finished text to the folder and empties the buffer for the next one */
+static ambulo_status write_text(ambulo__folder *folder, const char *name, ambulo__text_buffer *text,
+                                ambulo_diagnostics *diagnostics) {
+  ambulo_status status = ambulo__text_status(text);
+  if (!status)
+    status = ambulo__folder_write(folder, name, ambulo__text_data(text), text->length, diagnostics);
+  ambulo__text_clear(text);
+  return status;
+}
+
+static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_result *result,
+                                  int samples, ambulo__folder *folder, ambulo__text_buffer *text,
+                                  ambulo_diagnostics *diagnostics) {
+  ambulo__stride stride = {.samples = 0};
+  ambulo_status status =
+      ambulo__stride_create(problem, ambulo_result_x(result), samples, &text->allocator, &stride);
+  if (status) return status;
+  int patch[AMBULO__MAX_PATCHES], patches = 0;
+  for (int i = 0; i < stride.patches; i++)
+    if (ambulo__patch_is_used(&problem->definition, i)) patch[patches++] = i;
+  ambulo__motion_table table = {
+      .model = stride.model,
+      .name = ambulo_problem_name(problem),
+      .samples = stride.samples,
+      .times = stride.times,
+      .q = stride.q,
+      .qd = stride.qd,
+      .qdd = stride.qdd,
+      .tau = stride.tau,
+      .zmp = stride.zmp,
+      .feet = stride.feet,
+      .grf = stride.grf,
+      .cop = stride.cop,
+      .free_moment = stride.free_moment,
+      .grf_moment = stride.grf_moment,
+      .patches = patches,
+      .patch = patch,
+      .patch_force = stride.patch_force,
+      .patch_cop = stride.patch_cop,
+      .patch_free_moment = stride.patch_free_moment,
+      .patch_moment = stride.patch_moment,
+      .devices = stride.devices,
+      .device = problem->definition.devices,
+      .effort = stride.effort,
+      .along = stride.along,
+      .device_power = stride.power,
+      .holds = stride.holds,
+      .hold = problem->definition.holds,
+      .hold_force = stride.hold_force,
+      .hold_moment = stride.hold_moment,
+      .hold_power = stride.hold_power,
+  };
+  ambulo__motion_csv(&table, text);
+  status = write_text(folder, "motion.csv", text, diagnostics);
+  if (!status) {
+    ambulo__motion_sto(&table, text);
+    status = write_text(folder, "motion.sto", text, diagnostics);
+  }
+  ambulo__stride_free(&stride);
+  return status;
+}
+
+/* the picture and the scene; no result is lost over curves of people that cannot be read */
+static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *result,
+                          const char *norms, ambulo__folder *folder, ambulo__text_buffer *text,
+                          ambulo_diagnostics *diagnostics) {
+  ambulo__people people = {.count = 0};
+  ambulo_status status = AMBULO_OK;
+  int wanted = norms && ambulo__gait_is_walk(problem);
+  if (wanted) status = ambulo__norms_read(norms, &text->allocator, NULL, &people);
+  if (status == AMBULO_E_MEMORY) return status;
+  if (status) {
+    ambulo__place place = {.file = norms};
+    ambulo__warning(diagnostics, place, NULL,
+                    "the curves of people cannot be read; gait.svg is without them");
+  }
+  const ambulo__people *beside = wanted && !status ? &people : NULL;
+  status = ambulo__gait_svg(problem, result, beside, text);
+  if (!status) status = write_text(folder, "gait.svg", text, diagnostics);
+  if (!status) status = ambulo__scene_json(problem, result, beside, text);
+  if (!status) status = write_text(folder, "scene.json", text, diagnostics);
+  ambulo__people_free(&people);
+  return status;
+}
+
+static ambulo_status write_all(const ambulo_problem *problem, const ambulo_result *result,
+                               const ambulo_report_options *options, ambulo__folder *folder,
+                               ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
+  ambulo__summary_json(problem, result, text);
+  ambulo_status status = write_text(folder, summary_name, text, diagnostics);
+  if (status) return status;
+  ambulo__solution_yaml(problem, result, text);
+  status = write_text(folder, "solution.yaml", text, diagnostics);
+  if (status) return status;
+  status = write_motion(problem, result, options->samples, folder, text, diagnostics);
+  return status ? status : draw(problem, result, options->norms, folder, text, diagnostics);
+}
+
+ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_result *result,
+                                  const char *directory, const ambulo_report_options *options,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics) {
+  ambulo_report_options own;
+  if (!problem || !result || !directory || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo__folder *folder = NULL;
+  ambulo_status status = begin(directory, &own, allocator, diagnostics, &folder);
+  if (status) return status;
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, allocator);
+  status = write_all(problem, result, &own, folder, &text, diagnostics);
+  ambulo__text_free(&text);
+  if (status) {
+    ambulo__folder_abort(folder);
+    return ambulo__conclude(diagnostics, errors, status, directory);
+  }
+  return ambulo__folder_commit(folder, diagnostics);
+}
+
+ambulo_status ambulo_report_summary(const ambulo_problem *problem, const ambulo_result *result,
+                                    const ambulo_allocator *allocator, char **text) {
+  if (!problem || !result || !text) return AMBULO_E_ARGUMENT;
+  ambulo__text_buffer buffer;
+  ambulo__text_init(&buffer, allocator);
+  ambulo__summary_json(problem, result, &buffer);
+  ambulo_status status = ambulo__text_status(&buffer);
+  char *copy = status ? NULL : ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
+  ambulo__text_free(&buffer);
+  if (!status && !copy) status = AMBULO_E_MEMORY;
+  if (!status) *text = copy;
+  return status;
+}
+
+void ambulo_text_free(char *text, const ambulo_allocator *allocator) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__free(&own, text);
+}

@@ -1,0 +1,249 @@
+/* study/fit_conditions.c - `conditions:` of a fit file and their references (fit.h). */
+#include "formats/paths.h"
+#include "formats/read_file.h"
+#include "formats/text_hash.h"
+#include "study/fit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_REFERENCE_BYTES = 64 << 20, LIST = 400 };
+
+/* ------------------------------------------------------------------ overrides */
+
+static ambulo_status read_set(ambulo_fit *fit, ambulo__fit_condition *c) {
+  int count = ambulo__yaml_pairs(c->set_node);
+  c->set = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *c->set);
+  if (!c->set) return AMBULO_E_MEMORY;
+  for (int i = 0; i < count; i++) {
+    const char *key = ambulo__yaml_key(c->set_node, i);
+    const ambulo__yaml_node *value = ambulo__yaml_value(c->set_node, i);
+    ambulo__text_buffer text;
+    ambulo__yaml_expect(c->set_node, key);
+    ambulo__text_init(&text, &fit->allocator);
+    ambulo__text_append_format(&text, "%s=", key);
+    ambulo__yaml_flow(value, &text);
+    ambulo_status status = ambulo__text_status(&text);
+    if (!status) c->set[i] = ambulo__strdup(&fit->allocator, ambulo__text_data(&text));
+    ambulo__text_free(&text);
+    if (status || !c->set[i]) return AMBULO_E_MEMORY;
+    c->sets++;
+  }
+  return AMBULO_OK;
+}
+
+/* index of an earlier condition; -1: none */
+static int find_earlier(const ambulo_fit *fit, int before, const char *name) {
+  for (int i = 0; i < before; i++)
+    if (strcmp(fit->condition[i].name, name) == 0) return i;
+  return -1;
+}
+
+static void read_after(const ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
+  ambulo__fit_condition *c = &fit->condition[index];
+  const char *names[AMBULO__FIT_CONDITIONS];
+  char hint[LIST];
+  if (!node) return;
+  const char *word = ambulo__yaml_text(node);
+  c->after = find_earlier(fit, index, word);
+  if (c->after >= 0) return;
+  for (int i = 0; i < index; i++) names[i] = fit->condition[i].name;
+  const char *near = ambulo__nearest(word, names, (size_t)index);
+  (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, near ? hint : NULL,
+                           "no condition '%s' stands before this one; expected the name of one",
+                           word);
+}
+
+static ambulo_status read_condition(ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
+  ambulo__fit_condition *c = &fit->condition[index];
+  const ambulo__yaml_node *name = ambulo__yaml_require(node, "name");
+  c->node = node;
+  c->after = -1;
+  c->name = ambulo__yaml_name(name);
+  c->set_node = ambulo__yaml_get(node, "set");
+  c->reference_node = ambulo__yaml_require(node, "reference");
+  c->curves_node = ambulo__yaml_get(node, "curves");
+  c->held_out = ambulo__yaml_boolean(ambulo__yaml_get(node, "held_out"), 0);
+  c->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 1e-6, 1e6, 1.0);
+  if (find_earlier(fit, index, c->name) >= 0)
+    (void)ambulo__yaml_error(name, AMBULO_E_SCHEMA, NULL,
+                             "two conditions are named '%s'; expected different names", c->name);
+  read_after(fit, index, ambulo__yaml_get(node, "after"));
+  const char *file = ambulo__yaml_file_name(c->reference_node);
+  ambulo_status status =
+      ambulo__named_file(&fit->allocator, fit->path, file, ambulo__yaml_place(c->reference_node),
+                         fit->diagnostics, &c->reference);
+  if (!status) status = read_set(fit, c);
+  if (!status) ambulo__yaml_close(node);
+  return status;
+}
+
+ambulo_status ambulo__fit_read_conditions(ambulo_fit *fit, const ambulo__yaml_node *node) {
+  int count = ambulo__yaml_items(node), fitted = 0;
+  if (node && (count < 1 || count > AMBULO__FIT_CONDITIONS)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d conditions; expected 1 to %d", count,
+                             AMBULO__FIT_CONDITIONS);
+    return AMBULO_OK;
+  }
+  fit->condition = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *fit->condition);
+  if (!fit->condition) return AMBULO_E_MEMORY;
+  fit->conditions = count;
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < count && !status; i++) {
+    status = read_condition(fit, i, ambulo__yaml_item(node, i));
+    fitted += !fit->condition[i].held_out;
+  }
+  if (!status && count > 0 && fitted == 0)
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "all conditions are held out; expected one that is fitted");
+  return status;
+}
+
+/* ----------------------------------------------------------------- references */
+
+/* whether the condition's list `curves`, where it has one, names the curve of the distance */
+static int is_wanted(const ambulo__fit_condition *c, const char *name) {
+  int count = c->curves_node ? ambulo__yaml_items(c->curves_node) : 0;
+  for (int i = 0; i < count; i++)
+    if (strcmp(ambulo__yaml_text(ambulo__yaml_item(c->curves_node, i)), name) == 0) return 1;
+  return c->curves_node == NULL;
+}
+
+/* names of the list `curves` that are curves of the distance, and that one of them counts */
+static void check_names(const ambulo_fit *fit, const ambulo__fit_condition *c) {
+  const char *names[AMBULO__FIT_CURVES];
+  double weights = 0.0;
+  int strangers = 0;
+  int count = c->curves_node ? ambulo__yaml_items(c->curves_node) : 0;
+  for (int k = 0; k < fit->curves; k++) names[k] = fit->curve[k].name;
+  for (int i = 0; i < count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(c->curves_node, i);
+    const char *word = ambulo__yaml_text(item);
+    int known = 0;
+    for (int k = 0; k < fit->curves; k++) known |= strcmp(names[k], word) == 0;
+    if (known) continue;
+    strangers++;
+    const char *near = ambulo__nearest(word, names, (size_t)fit->curves);
+    char hint[LIST];
+    (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
+    (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, near ? hint : NULL,
+                             "distance.curves has no '%s'; expected some of its curves", word);
+  }
+  for (int k = 0; k < fit->curves; k++)
+    if (is_wanted(c, names[k])) weights += fit->curve[k].weight;
+  if (!(weights > 0.0) && !strangers)
+    (void)ambulo__yaml_error(c->curves_node, AMBULO_E_SCHEMA, NULL,
+                             "condition '%s' has no curve with a weight above 0; expected one",
+                             c->name);
+}
+
+static const ambulo__reference_curve *find_curve(const ambulo__fit_condition *c, const char *name) {
+  const ambulo__reference *r = &c->people.files[0].reference;
+  for (int i = 0; i < r->count; i++)
+    if (strcmp(r->curves[i].entry->curve, name) == 0) return &r->curves[i];
+  return NULL;
+}
+
+static void lacks_curve(const ambulo__fit_condition *c, const ambulo__fit_curve *curve) {
+  char known[LIST] = "", hint[LIST + 120];
+  size_t used = 0;
+  const ambulo__reference *r = &c->people.files[0].reference;
+  for (int i = 0; i < r->count && used < sizeof known; i++)
+    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+                             r->curves[i].entry->curve);
+  (void)snprintf(hint, sizeof hint,
+                 "it has %s; a list 'curves' in the condition leaves the others out", known);
+  (void)ambulo__yaml_error(c->reference_node, AMBULO_E_SCHEMA, hint,
+                           "the reference '%s' of condition '%s' has no curve '%s'; expected all "
+                           "that 'distance' names",
+                           c->reference, c->name, curve->curve);
+}
+
+/* points of the reference from `from` to `to`; their deviation, root mean square */
+static void cut_out(const ambulo__fit_curve *curve, const ambulo__reference_curve *r,
+                    ambulo__fit_target *t) {
+  int first = 0, last = r->points;
+  double squares = 0.0;
+  while (first < last && r->percent[first] < curve->from - 1e-9) first++;
+  while (last > first && r->percent[last - 1] > curve->to + 1e-9) last--;
+  t->entry = r->entry;
+  t->points = last - first;
+  t->percent = r->percent + first;
+  t->mean = r->mean + first;
+  for (int i = first; r->sd && i < last; i++) squares += r->sd[i] * r->sd[i];
+  t->sd = t->points > 0 ? sqrt(squares / (double)t->points) : 0.0;
+  if (curve->sd > 0.0) t->sd = curve->sd;
+}
+
+static void check_target(const ambulo__fit_condition *c, const ambulo__fit_curve *curve,
+                         const ambulo__fit_target *t) {
+  if (t->points < 3)
+    (void)ambulo__yaml_error(curve->node, AMBULO_E_SCHEMA, NULL,
+                             "the reference of condition '%s' has %d points of '%s' between %g and "
+                             "%g percent; expected at least 3",
+                             c->name, t->points, curve->curve, curve->from, curve->to);
+  else if (!(t->sd > 0.0))
+    (void)ambulo__yaml_error(curve->node, AMBULO_E_SCHEMA,
+                             "write it as {weight: 1, sd: 3}, in the unit of the curve",
+                             "the reference of condition '%s' has no deviations of '%s'; expected "
+                             "'sd' with the curve",
+                             c->name, curve->curve);
+}
+
+static ambulo_status make_targets(ambulo_fit *fit, ambulo__fit_condition *c) {
+  c->target = ambulo__alloc(&fit->allocator, (size_t)fit->curves, sizeof *c->target);
+  if (!c->target) return AMBULO_E_MEMORY;
+  check_names(fit, c);
+  for (int k = 0; k < fit->curves; k++) {
+    const ambulo__fit_curve *curve = &fit->curve[k];
+    if (!is_wanted(c, curve->name)) continue;
+    const ambulo__reference_curve *r = find_curve(c, curve->curve);
+    if (!r) {
+      lacks_curve(c, curve);
+      continue;
+    }
+    ambulo__fit_target *t = &c->target[c->targets++];
+    t->curve = k;
+    cut_out(curve, r, t);
+    check_target(c, curve, t);
+    t->first = c->residuals;
+    t->count = curve->of == AMBULO__FIT_CURVE ? t->points + 2 : 1;
+    c->residuals += t->count;
+  }
+  if (c->held_out) return AMBULO_OK;
+  c->first = fit->residuals;
+  fit->residuals += c->residuals;
+  return AMBULO_OK;
+}
+
+static ambulo_status hash_file(ambulo_fit *fit, const char *path) {
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status = ambulo__read_file(path, MOST_REFERENCE_BYTES, &fit->allocator,
+                                           fit->diagnostics, &text, &length);
+  if (!status) fit->hash = ambulo__hash_text(fit->hash, text);
+  ambulo__free(&fit->allocator, text);
+  return status;
+}
+
+ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
+  if (fit->compare.map) {
+    ambulo_status status = hash_file(fit, fit->compare.map);
+    if (status) return status;
+  }
+  for (int i = 0; i < fit->conditions; i++) {
+    ambulo__fit_condition *c = &fit->condition[i];
+    ambulo_status status = ambulo__people_read(c->reference, fit->compare.map, &fit->allocator,
+                                               fit->diagnostics, &c->people);
+    if (status == AMBULO_E_MEMORY) return status;
+    if (status)
+      return ambulo__yaml_error(c->reference_node, status, NULL,
+                                "the reference '%s' could not be read", c->reference);
+    status = hash_file(fit, c->reference);
+    if (!status) status = make_targets(fit, c);
+    if (status) return status;
+  }
+  return AMBULO_OK;
+}

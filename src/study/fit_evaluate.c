@@ -1,0 +1,260 @@
+/* study/fit_evaluate.c - see evaluate.h. */
+#include "study/fit_evaluate.h"
+
+#include "base/clock.h"
+#include "formats/paths.h"
+#include "study/case_path.h"
+#include "study/case_record.h"
+#include "people/compare_curve.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ open, close */
+
+static ambulo_status allocate(ambulo__fit_runner *r) {
+  const ambulo_fit *fit = r->fit;
+  int residuals = 1;
+  r->points = 1;
+  for (int c = 0; c < fit->conditions; c++) {
+    const ambulo__fit_condition *condition = &fit->condition[c];
+    if (condition->residuals > residuals) residuals = condition->residuals;
+    for (int t = 0; t < condition->targets; t++) {
+      const ambulo__fit_target *target = &condition->target[t];
+      if (target->points > r->points) r->points = target->points;
+      if (!condition->held_out) r->weights += condition->weight * fit->curve[target->curve].weight;
+    }
+  }
+  r->values = ambulo__alloc(r->allocator, (size_t)r->points, sizeof *r->values);
+  r->block = ambulo__alloc(r->allocator, (size_t)residuals, sizeof *r->block);
+  return r->values && r->block ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+ambulo_status ambulo__fit_runner_open(const ambulo_fit *fit, const char *directory,
+                                      const ambulo_fit_options *options,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_diagnostics *diagnostics, ambulo__fit_runner *r) {
+  memset(r, 0, sizeof *r);
+  r->fit = fit;
+  r->options = options;
+  r->allocator = allocator;
+  r->diagnostics = diagnostics;
+  r->begin = ambulo__seconds_now();
+  r->progress.first = r->progress.best = (double)NAN;
+  r->solves = ambulo__join_paths(allocator, directory, "solves", NULL);
+  ambulo_status status = r->solves ? allocate(r) : AMBULO_E_MEMORY;
+  if (status) return status;
+  status =
+      ambulo__sweep_begin(fit->name, fit->path, fit->problem, allocator, diagnostics, &r->sweep);
+  if (status) return status;
+  r->sweep->case_seconds = fit->case_seconds;
+  r->sweep->case_megabytes = fit->case_megabytes;
+  return AMBULO_OK;
+}
+
+void ambulo__fit_runner_close(ambulo__fit_runner *r) {
+  ambulo__free(r->allocator, r->solves);
+  ambulo__free(r->allocator, r->values);
+  ambulo__free(r->allocator, r->block);
+  ambulo_sweep_free(r->sweep);
+  r->sweep = NULL;
+}
+
+/* --------------------------------------------------------------------- solving */
+
+static int is_asked(const ambulo_fit *fit, ambulo__fit_scope scope, int condition) {
+  int held_out = fit->condition[condition].held_out;
+  if (scope == AMBULO__FIT_FITTED || scope == AMBULO__FIT_FRESH) return !held_out;
+  return scope != AMBULO__FIT_HELD_OUT || held_out;
+}
+
+/* the case that this one continues; -1: none */
+static int start_of(const ambulo_fit *fit, ambulo__fit_scope scope, const ambulo__fit_trial *from,
+                    const ambulo__fit_trial *t, int c) {
+  int after = fit->condition[c].after;
+  if (scope == AMBULO__FIT_FROM_ZERO || scope == AMBULO__FIT_FRESH) return -1;
+  if (from) return from->index[c];
+  return after >= 0 ? t->index[after] : -1;
+}
+
+static ambulo_status ask(ambulo__fit_runner *r, ambulo__fit_scope scope,
+                         const ambulo__fit_trial *from, ambulo__fit_trial *t) {
+  const ambulo_fit *fit = r->fit;
+  ambulo_status status = AMBULO_OK;
+  for (int c = 0; c < fit->conditions && !status; c++) {
+    const char **overrides = NULL;
+    char name[AMBULO__FIT_LABEL + 80];
+    int count = 0;
+    t->index[c] = -1;
+    if (!is_asked(fit, scope, c)) continue;
+    (void)snprintf(name, sizeof name, "%s, %s", fit->condition[c].name, t->label);
+    status = ambulo__fit_overrides(fit, c, t->u, &overrides, &count);
+    if (!status)
+      status = ambulo__sweep_append(r->sweep, name, overrides, count,
+                                    start_of(fit, scope, from, t, c), r->diagnostics, &t->index[c]);
+    ambulo__free(&fit->allocator, (void *)overrides);
+  }
+  return status;
+}
+
+static int show(void *user, const ambulo_batch_progress *batch) {
+  ambulo__fit_runner *r = user;
+  ambulo_fit_progress *p = &r->progress;
+  int fresh = batch->done - batch->resumed, made = r->computed + fresh;
+  p->round = batch->done > r->before ? batch->done - r->before : 0;
+  p->rounds = batch->cases - r->before;
+  p->solves = batch->done;
+  p->failed = batch->failed;
+  p->resumed = batch->done - made > 0 ? batch->done - made : 0;
+  if (p->expected < batch->cases) p->expected = batch->cases;
+  p->seconds = ambulo__seconds_now() - r->begin;
+  double each = made > 0 ? (r->solving + batch->seconds) / made : -1.0;
+  p->seconds_left = each >= 0.0 ? each * (p->expected - p->solves) : AMBULO_OFF;
+  int wish = r->options->progress ? r->options->progress(r->options->user, p) : 0;
+  if (wish > r->wish) r->wish = wish;
+  return r->wish;
+}
+
+/* solves what is new in the list */
+static ambulo_status solve(ambulo__fit_runner *r) {
+  if (r->sweep->case_count == r->before || r->wish) return AMBULO_OK;
+  ambulo_batch_options o = ambulo_batch_options_default();
+  ambulo_batch_progress end;
+  memset(&end, 0, sizeof end);
+  o.program = r->options->program;
+  o.workers = r->options->workers;
+  o.case_seconds = r->options->case_seconds;
+  o.case_megabytes = r->options->case_megabytes;
+  o.grace = r->options->grace;
+  o.force = 1; /* the list grows; whether the inputs are the same is known from the folder */
+  o.progress = show;
+  o.user = r;
+  r->sweep->trusted = r->before;
+  ambulo_status status =
+      ambulo_batch_run(r->sweep, r->solves, &o, r->allocator, r->diagnostics, &end);
+  int fresh = end.done - end.resumed;
+  r->computed += fresh;
+  if (fresh > 0) r->solving += end.seconds;
+  r->before = r->sweep->case_count;
+  return status;
+}
+
+/* --------------------------------------------------------------------- scoring */
+
+static ambulo_status find_record(const ambulo__fit_runner *r, int index, ambulo__finding *finding,
+                                 ambulo__record *record) {
+  const ambulo__sweep_case *one = &r->sweep->cases[index];
+  ambulo__damage damage;
+  return ambulo__record_find(r->solves, one->id, one->key, 0, r->allocator, finding, record,
+                             &damage);
+}
+
+ambulo_status ambulo__fit_state(const ambulo__fit_runner *r, int index, char state[24]) {
+  ambulo__finding finding = AMBULO__FOUND_NOTHING;
+  ambulo__record record;
+  ambulo_status status = AMBULO_OK;
+  if (index >= 0) status = find_record(r, index, &finding, &record);
+  if (!status)
+    (void)snprintf(state, 24, "%s", finding == AMBULO__FOUND_INTACT ? record.state : "missing");
+  return status;
+}
+
+static ambulo_status lacks_curve(const ambulo__fit_runner *r, const ambulo__fit_condition *c,
+                                 const ambulo__fit_target *t, const ambulo__cycle *cycle) {
+  ambulo__place place = {cycle->motion_path, 0, 0, NULL};
+  return ambulo__error(r->diagnostics, AMBULO_E_PROBLEM, place,
+                       "compare.map names the columns of other models; moments and forces need the "
+                       "body's mass",
+                       "condition '%s': the motion has no curve '%s' (from '%s'); expected every "
+                       "curve that 'distance' names",
+                       c->name, r->fit->curve[t->curve].curve, t->entry->result);
+}
+
+/* blocks and scores of one condition from its motion, or, without one, of a failed solve; sums
+ * of what counts */
+static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__sampler *motion,
+                                   ambulo__fit_trial *trial) {
+  const ambulo_fit *fit = r->fit;
+  const ambulo__fit_condition *c = &fit->condition[index];
+  double sum = 0.0, weights = 0.0;
+  for (int k = 0; k < c->targets; k++) {
+    const ambulo__fit_target *t = &c->target[k];
+    ambulo__fit_score *score = &trial->score[index * fit->curves + t->curve];
+    double *block = r->block + t->first, weight = fit->curve[t->curve].weight;
+    if (motion) {
+      int found = 0;
+      ambulo_status status =
+          ambulo__sample_curve(motion, t->entry, t->percent, t->points, r->values, NULL, &found);
+      if (status) return status;
+      if (!found) return lacks_curve(r, c, t, motion->cycle);
+      ambulo__fit_residual(fit, t, r->values, block, score);
+    } else {
+      ambulo__fit_residual_failed(fit, t, block, score);
+    }
+    sum += weight * score->z;
+    weights += weight;
+    double factor = sqrt(c->weight * weight / r->weights);
+    for (int i = 0; i < t->count && !c->held_out; i++)
+      trial->residual[c->first + t->first + i] = factor * block[i];
+  }
+  trial->apart[index] = weights > 0.0 ? sum / weights : 0.0;
+  if (!c->held_out) trial->distance += c->weight * sum / r->weights;
+  return AMBULO_OK;
+}
+
+static ambulo_status read_motion(ambulo__fit_runner *r, int index, ambulo__fit_trial *t) {
+  ambulo__cycle cycle;
+  memset(&cycle, 0, sizeof cycle);
+  /* warnings of the first motions are enough */
+  ambulo_diagnostics *list = ambulo_diagnostics_create(r->allocator);
+  const char *id = r->sweep->cases[t->index[index]].id;
+  char *path = ambulo__case_path(r->allocator, r->solves, id, "");
+  ambulo_status status = list && path ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) {
+    status = ambulo__cycle_open(path, &r->fit->compare, r->allocator, list, &cycle);
+    if (!status) {
+      ambulo__sampler motion = {.cycle = NULL};
+      status = ambulo__sampler_create(&cycle, &r->fit->compare, r->points, &motion);
+      if (!status) status = score_targets(r, index, &motion, t);
+      ambulo__sampler_free(&motion);
+      ambulo__cycle_close(&cycle);
+    }
+  }
+  if (list && (status || !r->told)) ambulo__diagnostics_append(list, r->diagnostics);
+  ambulo_diagnostics_free(list);
+  ambulo__free(r->allocator, path);
+  return status;
+}
+
+static ambulo_status score(ambulo__fit_runner *r, ambulo__fit_scope scope, ambulo__fit_trial *t) {
+  ambulo_status status = AMBULO_OK;
+  t->complete = 1;
+  t->distance = 0.0;
+  for (int c = 0; c < r->fit->conditions && !status; c++) {
+    ambulo__finding finding = AMBULO__FOUND_NOTHING;
+    ambulo__record record;
+    if (!is_asked(r->fit, scope, c)) continue;
+    status = find_record(r, t->index[c], &finding, &record);
+    if (status) break;
+    int is_known = finding == AMBULO__FOUND_INTACT;
+    if (!is_known && r->wish) {
+      t->complete = 0;
+      continue;
+    }
+    t->solved[c] = is_known && record.valid;
+    status = t->solved[c] ? read_motion(r, c, t) : score_targets(r, c, NULL, t);
+  }
+  return status;
+}
+
+ambulo_status ambulo__fit_evaluate(ambulo__fit_runner *r, ambulo__fit_scope scope,
+                                   const ambulo__fit_trial *from, ambulo__fit_trial *trials,
+                                   int count) {
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < count && !status; i++) status = ask(r, scope, from, &trials[i]);
+  if (!status) status = solve(r);
+  for (int i = 0; i < count && !status; i++) status = score(r, scope, &trials[i]);
+  r->told = 1;
+  return status;
+}

@@ -1,0 +1,272 @@
+/* study/fit_file.c - reading a fit file (fit.h, docs/guide-fit.md). */
+#include "formats/paths.h"
+#include "formats/read_file.h"
+#include "formats/text_hash.h"
+#include "study/fit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_FIT_BYTES = 16 << 20 };
+
+static const double least_step = 1e-6, radians_per_degree = 0.017453292519943295;
+
+/* ----------------------------------------------------------------- parameters */
+
+/* the key stands in another parameter, or here before: its value would be whose? */
+static int is_taken(const ambulo_fit *fit, int parameter, int before, const char *key) {
+  for (int i = 0; i <= parameter; i++) {
+    const ambulo__fit_parameter *p = &fit->parameter[i];
+    for (int k = 0; k < (i < parameter ? p->keys : before); k++)
+      if (strcmp(p->key[k], key) == 0) return 1;
+  }
+  return 0;
+}
+
+static ambulo_status read_keys(ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
+  ambulo__fit_parameter *p = &fit->parameter[index];
+  int count = ambulo__yaml_items(node);
+  if (node && (count < 1 || count > AMBULO__FIT_KEYS)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d keys; expected 1 to %d", count,
+                             AMBULO__FIT_KEYS);
+    return AMBULO_OK;
+  }
+  p->key = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *p->key);
+  if (!p->key) return AMBULO_E_MEMORY;
+  for (int k = 0; k < count; k++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, k);
+    const char *key = ambulo__yaml_text(item);
+    if (!key[0] || strchr(key, '='))
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "no key that can be set (got '%.60s'); expected a path such as "
+                               "objective[0].weight",
+                               key);
+    else if (strncmp(key, "model.", 6) == 0)
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "'%.100s' is a key of the model file; expected one of the problem",
+                               key);
+    else if (is_taken(fit, index, k, key))
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "the key '%.100s' is taken already; expected each key once", key);
+    p->key[p->keys++] = key;
+  }
+  return AMBULO_OK;
+}
+
+/* the range, and from it the bounds of u */
+static void read_range(ambulo__fit_parameter *p, const ambulo__yaml_node *node) {
+  int is_log = p->scale == AMBULO__FIT_LOG;
+  double own = is_log ? 1.0 : 0.0;
+  p->range[0] = p->range[1] = own;
+  if (!node || !ambulo__yaml_numbers(node, 2, p->range)) return;
+  if (!(p->range[0] < p->range[1]) || (is_log && !(p->range[0] > 0.0)))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "range [%g, %g]; expected two rising %s",
+                             p->range[0], p->range[1],
+                             is_log ? "factors above 0" : "numbers to be added");
+  else if (own < p->range[0] || own > p->range[1])
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA,
+                             "ranges are of the factor or the addend on the file's own value",
+                             "range [%g, %g] is without %g, where the problem stands; expected one "
+                             "around it",
+                             p->range[0], p->range[1], own);
+  else
+    for (int side = 0; side < 2; side++) {
+      double bound = (is_log ? log(p->range[side]) : p->range[side]) / p->step;
+      *(side ? &p->upper : &p->lower) = bound;
+    }
+}
+
+static ambulo_status read_parameter(ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
+  static const char *const scales[] = {"log", "linear"};
+  ambulo__fit_parameter *p = &fit->parameter[index];
+  p->node = node;
+  const ambulo__yaml_node *name = ambulo__yaml_require(node, "name");
+  p->name = ambulo__yaml_name(name);
+  for (int i = 0; i < index; i++)
+    if (strcmp(fit->parameter[i].name, p->name) == 0)
+      (void)ambulo__yaml_error(name, AMBULO_E_SCHEMA, NULL,
+                               "two parameters are named '%s'; expected different names", p->name);
+  p->scale = (ambulo__fit_scale)ambulo__yaml_choice(ambulo__yaml_get(node, "scale"), scales, 2, 0);
+  const ambulo__yaml_node *range = ambulo__yaml_require(node, "range");
+  const ambulo__yaml_node *step = p->scale == AMBULO__FIT_LOG ? ambulo__yaml_get(node, "step")
+                                                              : ambulo__yaml_require(node, "step");
+  p->step = ambulo__yaml_number_in(step, least_step, 1e9, 0.3);
+  read_range(p, range);
+  ambulo_status status = read_keys(fit, index, ambulo__yaml_require(node, "keys"));
+  if (!status) ambulo__yaml_close(node);
+  return status;
+}
+
+static ambulo_status read_parameters(ambulo_fit *fit, const ambulo__yaml_node *node) {
+  int count = ambulo__yaml_items(node);
+  if (node && (count < 1 || count > AMBULO__FIT_PARAMETERS)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d parameters; expected 1 to %d", count,
+                             AMBULO__FIT_PARAMETERS);
+    return AMBULO_OK;
+  }
+  fit->parameter = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *fit->parameter);
+  if (!fit->parameter) return AMBULO_E_MEMORY;
+  fit->parameters = count;
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < count && !status; i++)
+    status = read_parameter(fit, i, ambulo__yaml_item(node, i));
+  return status;
+}
+
+/* --------------------------------------------------------------- other sections */
+
+static void read_method(ambulo_fit *fit, const ambulo__yaml_node *node) {
+  static const char *const kinds[] = {"gauss_newton", "bobyqa", "sbplx"};
+  fit->iterations = 6;
+  if (!node) return;
+  const ambulo__yaml_node *kind = ambulo__yaml_get(node, "kind");
+  fit->method = (ambulo__fit_method)ambulo__yaml_choice(kind, kinds, 3, 0);
+  int is_direct = fit->method != AMBULO__FIT_GAUSS_NEWTON;
+  if (is_direct)
+    fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "evaluations"), 1, 100000, 100);
+  else
+    fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "iterations"), 0, 1000, 6);
+  fit->ridge = ambulo__yaml_number_in(ambulo__yaml_get(node, "ridge"), 0.0, 1e6, fit->ridge);
+  fit->tolerance =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "tolerance"), 0.0, 1.0, fit->tolerance);
+  if (fit->method == AMBULO__FIT_BOBYQA && fit->parameters < 2)
+    (void)ambulo__yaml_error(kind, AMBULO_E_SCHEMA, NULL,
+                             "BOBYQA takes 2 parameters or more (got %d); expected gauss_newton or "
+                             "sbplx",
+                             fit->parameters);
+  ambulo__yaml_close(node);
+}
+
+static void read_limits(ambulo_fit *fit, const ambulo__yaml_node *node) {
+  fit->case_seconds = 60.0;
+  if (!node) return;
+  fit->case_seconds =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "seconds"), 1e-3, 1e9, fit->case_seconds);
+  fit->case_megabytes = ambulo__yaml_integer(ambulo__yaml_get(node, "megabytes"), 1, 10000000, 0);
+  ambulo__yaml_close(node);
+}
+
+/* *path: as seen from the fit file; NULL: not given */
+static ambulo_status read_compare(ambulo_fit *fit, const ambulo__yaml_node *node) {
+  static const char *const feet[] = {"left", "right"};
+  fit->compare = ambulo_compare_options_default();
+  if (!node) return AMBULO_OK;
+  const ambulo__yaml_node *map = ambulo__yaml_get(node, "map"),
+                          *foot = ambulo__yaml_get(node, "foot");
+  const ambulo__yaml_node *tilt = ambulo__yaml_get(node, "pelvic_tilt");
+  if (foot) fit->compare.foot = feet[ambulo__yaml_choice(foot, feet, 2, 0)];
+  if (tilt)
+    fit->compare.pelvic_tilt = radians_per_degree * ambulo__yaml_number_in(tilt, -90.0, 90.0, 0.0);
+  ambulo__yaml_close(node);
+  if (!map) return AMBULO_OK;
+  char *path = NULL;
+  ambulo_status status = ambulo__named_file(&fit->allocator, fit->path, ambulo__yaml_file_name(map),
+                                            ambulo__yaml_place(map), fit->diagnostics, &path);
+  fit->compare.map = path;
+  return status;
+}
+
+/* a fault in one section must not make strangers of those that would have been read after it */
+static void expect_all(const ambulo__yaml_node *root) {
+  static const char *const keys[] = {"parameters", "conditions", "distance",
+                                     "method",     "limits",     "compare"};
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) ambulo__yaml_expect(root, keys[i]);
+}
+
+static ambulo_status read_sections(ambulo_fit *fit) {
+  const ambulo__yaml_node *root = ambulo__yaml_root(fit->document);
+  static const char *const kinds[] = {"fit"};
+  if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return AMBULO_OK;
+  expect_all(root);
+  (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
+  fit->name = ambulo__yaml_name(ambulo__yaml_require(root, "name"));
+  const ambulo__yaml_node *problem = ambulo__yaml_require(root, "problem");
+  ambulo_status status =
+      ambulo__named_file(&fit->allocator, fit->path, ambulo__yaml_file_name(problem),
+                         ambulo__yaml_place(problem), fit->diagnostics, &fit->problem);
+  if (!status) status = read_compare(fit, ambulo__yaml_get(root, "compare"));
+  if (!status) status = read_parameters(fit, ambulo__yaml_require(root, "parameters"));
+  if (!status) status = ambulo__fit_read_conditions(fit, ambulo__yaml_require(root, "conditions"));
+  if (!status) status = ambulo__fit_read_distance(fit, ambulo__yaml_require(root, "distance"));
+  if (status) return status;
+  read_method(fit, ambulo__yaml_get(root, "method"));
+  read_limits(fit, ambulo__yaml_get(root, "limits"));
+  ambulo__yaml_close(root);
+  return AMBULO_OK;
+}
+
+static ambulo_status hash_own_text(ambulo_fit *fit) {
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status = ambulo__read_file(fit->path, MOST_FIT_BYTES, &fit->allocator,
+                                           fit->diagnostics, &text, &length);
+  if (!status) fit->hash = ambulo__hash_text(AMBULO__HASH_START, text);
+  ambulo__free(&fit->allocator, text);
+  return status;
+}
+
+static ambulo_status read_all(ambulo_fit *fit) {
+  ambulo_status status = hash_own_text(fit);
+  if (!status)
+    status = ambulo__yaml_load(fit->path, &fit->allocator, fit->diagnostics, &fit->document);
+  if (!status) status = read_sections(fit);
+  if (!status) status = ambulo__yaml_finish(fit->document);
+  if (!status) status = ambulo__fit_read_references(fit);
+  if (!status) status = ambulo__yaml_finish(fit->document);
+  if (!status) status = ambulo__fit_read_keys(fit);
+  return status ? status : ambulo__yaml_finish(fit->document);
+}
+
+/* ---------------------------------------------------------------- entry points */
+
+ambulo_status ambulo_fit_load(const char *path, const ambulo_allocator *allocator,
+                              ambulo_diagnostics *diagnostics, ambulo_fit **fit) {
+  if (!path || !fit) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_fit *f = ambulo__alloc(&own, 1, sizeof *f);
+  if (!f) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, path);
+  f->allocator = own;
+  f->diagnostics = diagnostics;
+  f->correlation = 1.2;
+  f->range_cost = 0.8;
+  f->cap = 12.0;
+  f->ridge = 0.0025;
+  f->tolerance = 0.005;
+  f->path = ambulo__strdup(&own, path);
+  ambulo_status status = f->path ? read_all(f) : AMBULO_E_MEMORY;
+  f->diagnostics = NULL;
+  if (status) {
+    ambulo_fit_free(f);
+  } else {
+    *fit = f;
+  }
+  return ambulo__conclude(diagnostics, errors, status, path);
+}
+
+void ambulo_fit_free(ambulo_fit *f) {
+  if (!f) return;
+  ambulo_allocator a = f->allocator;
+  for (int i = 0; i < f->parameters; i++) {
+    ambulo__free(&a, (void *)f->parameter[i].key);
+    ambulo__free(&a, f->parameter[i].own);
+    ambulo__free(&a, f->parameter[i].in_file);
+  }
+  for (int i = 0; i < f->conditions; i++) {
+    ambulo__fit_condition *c = &f->condition[i];
+    for (int k = 0; k < c->sets; k++) ambulo__free(&a, c->set[k]);
+    ambulo__free(&a, c->set);
+    ambulo__free(&a, c->reference);
+    ambulo__free(&a, c->target);
+    ambulo__people_free(&c->people);
+  }
+  ambulo__free(&a, f->parameter);
+  ambulo__free(&a, f->condition);
+  ambulo__free(&a, f->curve);
+  ambulo__free(&a, (void *)f->compare.map);
+  ambulo__free(&a, f->path);
+  ambulo__free(&a, f->problem);
+  ambulo__yaml_free(f->document);
+  ambulo__free(&a, f);
+}

@@ -1,0 +1,283 @@
+/* study/fit_run.c - ambulo_fit_run: folder, first solves, method, held-out conditions, results.
+ *
+ * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml`
+ * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
+ * valley that zero does not find. */
+#include "ambulo/report.h"
+#include "base/sized.h"
+#include "formats/atomic_file.h"
+#include "base/clock.h"
+#include "formats/paths.h"
+#include "formats/read_file.h"
+#include "study/case_path.h"
+#include "study/fitted_problem.h"
+#include "study/fit_folder.h"
+#include "study/fit_outcome.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TRIALS = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
+
+AMBULO__FILL(ambulo_fit_options, {.size = size, .case_seconds = AMBULO_OFF, .grace = 30.0})
+
+static int acceptable(const ambulo_fit_options *o) {
+  return o->workers >= 0 && o->workers <= MOST_WORKERS &&
+         (isnan(o->case_seconds) || o->case_seconds > 0.0) && o->case_megabytes >= 0 &&
+         o->grace >= 0.0;
+}
+
+typedef struct run {
+  const ambulo_fit *fit;
+  const char *directory;
+  ambulo_allocator allocator;
+  ambulo_diagnostics *diagnostics;
+  ambulo__fit_runner runner;
+  ambulo__fit_outcome outcome;
+  ambulo__fit_sizes sizes;
+  double *lower; /* [2][parameters] bounds of u */
+} run;
+
+/* ---------------------------------------------------------------------- course */
+
+static ambulo_status note_step(run *r, const ambulo__fit_step *step) {
+  ambulo__fit_outcome *o = &r->outcome;
+  if (o->entries == o->capacity) {
+    int capacity = o->capacity ? 2 * o->capacity : 64;
+    ambulo__fit_entry *entry =
+        ambulo__realloc(&r->allocator, o->entry, (size_t)capacity, sizeof *entry);
+    if (!entry) return AMBULO_E_MEMORY;
+    o->entry = entry;
+    o->capacity = capacity;
+  }
+  o->entry[o->entries++] = (ambulo__fit_entry){*step, r->runner.sweep->case_count};
+  r->runner.progress.iteration = o->entries - 1;
+  r->runner.progress.best = step->distance;
+  return AMBULO_OK;
+}
+
+static ambulo_status note(void *user, const ambulo__fit_step *step) {
+  return note_step(user, step);
+}
+
+static ambulo_status refresh(void *user, ambulo__fit_trial *best) {
+  run *r = user;
+  return ambulo__fit_refresh(&r->runner, &r->sizes, best);
+}
+
+static ambulo_status evaluate(void *user, const ambulo__fit_trial *from, ambulo__fit_trial *trials,
+                              int count) {
+  run *r = user;
+  return ambulo__fit_evaluate(&r->runner, AMBULO__FIT_FITTED, from, trials, count);
+}
+
+/* the first line of what a failed solve said; to be freed; NULL: nothing */
+static char *first_words(const run *r, int index) {
+  char *text = NULL, *words = NULL;
+  size_t length = 0;
+  if (index < 0) return NULL;
+  char *path =
+      ambulo__case_path(&r->allocator, r->runner.solves, r->runner.sweep->cases[index].id, ".log");
+  if (path && ambulo__read_file(path, MOST_LOG, &r->allocator, NULL, &text, &length)) text = NULL;
+  if (text && text[0]) {
+    text[strcspn(text, "\n")] = '\0';
+    words = ambulo__strdup(&r->allocator, text);
+  }
+  ambulo__free(&r->allocator, text);
+  ambulo__free(&r->allocator, path);
+  return words;
+}
+
+/* E_PROBLEM where no condition could be solved; a warning for each that could not */
+static ambulo_status check_first(const run *r, const ambulo__fit_trial *first) {
+  const ambulo_fit *fit = r->fit;
+  int solved = 0;
+  for (int c = 0; c < fit->conditions; c++)
+    solved += !fit->condition[c].held_out && first->solved[c];
+  for (int c = 0; c < fit->conditions; c++) {
+    char state[24];
+    ambulo__place place = ambulo__yaml_place(fit->condition[c].node);
+    if (first->solved[c] || (solved == 0 && fit->condition[c].held_out)) continue;
+    ambulo_status status = ambulo__fit_state(&r->runner, first->index[c], state);
+    if (status) return status;
+    char *words = first_words(r, first->index[c]);
+    if (solved == 0)
+      status = ambulo__error(r->diagnostics, AMBULO_E_PROBLEM, place, words,
+                             "no condition could be solved where the parameters stand; '%s' is %s; "
+                             "expected a problem that has solutions",
+                             fit->condition[c].name, state);
+    else
+      ambulo__warning(r->diagnostics, place, words,
+                      "condition '%s' has no solution where the parameters stand (%s)",
+                      fit->condition[c].name, state);
+    ambulo__free(&r->allocator, words);
+    if (status) return status;
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status improve(run *r) {
+  ambulo__fit_outcome *o = &r->outcome;
+  ambulo__fit_task task = {.sizes = r->sizes,
+                           .lower = r->lower,
+                           .upper = r->lower + r->fit->parameters,
+                           .ridge = r->fit->ridge,
+                           .tolerance = r->fit->tolerance,
+                           .iterations = r->fit->iterations,
+                           .allocator = &r->allocator,
+                           .evaluate = evaluate,
+                           .refresh = refresh,
+                           .note = note,
+                           .user = r};
+  ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *best = &o->trial[AMBULO__FIT_BEST];
+  first->cost = ambulo__fit_cost(&task, first);
+  ambulo__fit_trial_copy(&r->sizes, first, best);
+  r->runner.progress.first = first->distance;
+  ambulo__fit_step start = {first->distance, first->cost, (double)NAN, 0, "start"};
+  ambulo_status status = note_step(r, &start);
+  if (status) return status;
+  if (r->fit->method == AMBULO__FIT_GAUSS_NEWTON)
+    return ambulo__fit_gauss_newton(&task, best, o->sensitivity, &o->ending, &o->stuck);
+  return ambulo__fit_direct_search(&task, r->fit->method, best, &o->ending);
+}
+
+/* held-out conditions at the best parameters, each from where it began; then all from zero, which
+ * may be better for a held-out one, too */
+static ambulo_status judge(run *r) {
+  ambulo__fit_outcome *o = &r->outcome;
+  const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST],
+                          *best = &o->trial[AMBULO__FIT_BEST];
+  size_t bytes = (size_t)r->fit->parameters * sizeof *best->u;
+  ambulo__fit_trial *apart = &o->trial[AMBULO__FIT_APART], *cold = &o->trial[AMBULO__FIT_COLD];
+  memcpy(apart->u, best->u, bytes);
+  memcpy(cold->u, best->u, bytes);
+  (void)snprintf(apart->label, sizeof apart->label, "fitted");
+  (void)snprintf(cold->label, sizeof cold->label, "fitted, from zero");
+  ambulo_status status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_HELD_OUT, first, apart, 1);
+  if (!status) status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_FROM_ZERO, NULL, cold, 1);
+  if (status || !cold->complete) return status;
+  return ambulo__fit_take_better(&r->runner, &r->sizes, cold, apart);
+}
+
+/* ---------------------------------------------------------------------- results */
+
+static ambulo_status write_file(const run *r, const char *name, const ambulo__text_buffer *text) {
+  char *path = ambulo__join_paths(&r->allocator, r->directory, name, NULL);
+  ambulo_status status = path ? ambulo__text_status(text) : AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo__write_file(path, ambulo__text_data(text), text->length, 1, &r->allocator,
+                                r->diagnostics);
+  ambulo__free(&r->allocator, path);
+  return status;
+}
+
+static void tell_missing_keys(const run *r) {
+  for (int i = 0; i < r->fit->parameters; i++) {
+    const ambulo__fit_parameter *p = &r->fit->parameter[i];
+    for (int k = 0; k < p->keys; k++)
+      if (isnan(p->in_file[k]))
+        ambulo__note(r->diagnostics, ambulo__yaml_place(p->node),
+                     "'%s' stands in conditions only: fitted.yaml is without it, the conditions' "
+                     "'settings' in fit.json have it",
+                     p->key[k]);
+  }
+}
+
+static ambulo_status write_results(run *r, char **report) {
+  ambulo__text_buffer problem, json, table;
+  ambulo__text_init(&problem, &r->allocator);
+  ambulo__text_init(&json, &r->allocator);
+  ambulo__text_init(&table, &r->allocator);
+  const double *u = r->outcome.trial[AMBULO__FIT_BEST].u;
+  ambulo_status status = ambulo__fitted_problem(r->fit, u, r->directory, r->diagnostics, &problem);
+  if (!status) status = ambulo__fit_json(&r->outcome, &json);
+  if (!status) ambulo__fit_table(&r->outcome, &table);
+  if (!status) status = ambulo__text_status(&table);
+  char *copy = status ? NULL : ambulo__strdup(&r->allocator, ambulo__text_data(&table));
+  if (!status && !copy) status = AMBULO_E_MEMORY;
+  if (!status) status = write_file(r, "fitted.yaml", &problem);
+  if (!status) status = write_file(r, "fit.json", &json);
+  if (!status) tell_missing_keys(r);
+  if (!status && report) {
+    *report = copy;
+    copy = NULL;
+  }
+  ambulo__free(&r->allocator, copy);
+  ambulo__text_free(&problem);
+  ambulo__text_free(&json);
+  ambulo__text_free(&table);
+  return status;
+}
+
+/* ------------------------------------------------------------------------- run */
+
+static ambulo_status prepare(run *r) {
+  const ambulo_fit *fit = r->fit;
+  size_t n = (size_t)fit->parameters;
+  r->sizes = (ambulo__fit_sizes){fit->parameters, fit->residuals, fit->conditions, fit->curves};
+  r->outcome.fit = fit;
+  r->outcome.runner = &r->runner;
+  r->outcome.stuck = -1;
+  r->outcome.trial = ambulo__fit_trials_make(&r->sizes, TRIALS, &r->allocator);
+  r->outcome.sensitivity = ambulo__alloc(&r->allocator, n, sizeof *r->outcome.sensitivity);
+  r->lower = ambulo__alloc(&r->allocator, 2 * n, sizeof *r->lower);
+  if (!r->outcome.trial || !r->outcome.sensitivity || !r->lower) return AMBULO_E_MEMORY;
+  for (size_t i = 0; i < n; i++) {
+    r->outcome.sensitivity[i] = (double)NAN;
+    r->lower[i] = fit->parameter[i].lower;
+    r->lower[n + i] = fit->parameter[i].upper;
+  }
+  r->runner.progress.iterations = fit->iterations;
+  r->runner.progress.expected = ambulo__fit_expected(fit);
+  return AMBULO_OK;
+}
+
+static ambulo_status run_locked(run *r, char **report) {
+  ambulo__fit_trial *first = &r->outcome.trial[AMBULO__FIT_FIRST];
+  (void)snprintf(first->label, sizeof first->label, "start");
+  ambulo_status status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_ALL, NULL, first, 1);
+  if (status) return status;
+  if (!first->complete) {
+    r->outcome.ending = AMBULO_FIT_INTERRUPTED;
+    return AMBULO_OK;
+  }
+  status = ambulo__fit_refresh(&r->runner, &r->sizes, first);
+  if (!status) status = check_first(r, first);
+  if (!status) status = improve(r);
+  if (!status) status = judge(r);
+  if (status) return status;
+  if (r->runner.wish && !r->outcome.trial[AMBULO__FIT_COLD].complete)
+    r->outcome.ending = AMBULO_FIT_INTERRUPTED;
+  return write_results(r, report);
+}
+
+ambulo_status ambulo_fit_run(const ambulo_fit *fit, const char *directory,
+                             const ambulo_fit_options *options, const ambulo_allocator *allocator,
+                             ambulo_diagnostics *diagnostics, ambulo_fit_progress *end,
+                             char **report) {
+  ambulo_fit_options o;
+  if (!AMBULO__OWN(ambulo_fit_options, &o, options)) return AMBULO_E_ARGUMENT;
+  if (!fit || !directory || !acceptable(&o)) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  run r = {.fit = fit,
+           .directory = directory,
+           .allocator = ambulo__allocator_or_default(allocator),
+           .diagnostics = diagnostics};
+  ambulo__lock lock = {-1, -1};
+  ambulo_status status =
+      ambulo__fit_runner_open(fit, directory, &o, &r.allocator, diagnostics, &r.runner);
+  if (!status) status = prepare(&r);
+  if (!status) status = ambulo__fit_folder_prepare(&r.runner, directory, &lock);
+  if (!status) status = run_locked(&r, report);
+  ambulo__lock_release(&lock);
+  r.runner.progress.seconds = ambulo__seconds_now() - r.runner.begin;
+  if (!status) r.runner.progress.ending = r.outcome.ending;
+  if (end) *end = r.runner.progress;
+  ambulo__free(&r.allocator, r.outcome.trial);
+  ambulo__free(&r.allocator, r.outcome.sensitivity);
+  ambulo__free(&r.allocator, r.outcome.entry);
+  ambulo__free(&r.allocator, r.lower);
+  ambulo__fit_runner_close(&r.runner);
+  return ambulo__conclude(diagnostics, errors, status, directory);
+}

@@ -1,0 +1,346 @@
+/* What the law that shares the load is told of contacts: a stride of 1 s, phases 0 / 0.1 / 0.4 /
+ * 0.6 of it, left strikes at 0. Double support from 0 to 0.1 s and from 0.5 to 0.6 s. Walker: heel
+ * to toe 0.22 m, no joint of the toes. */
+#include "contact/contact_load.h"
+#include "support/patched_walker.h"
+#include "support/toed_body.h"
+
+typedef struct fixture {
+  ambulo_model *model;
+  ambulo_contact contacts[12];
+  ambulo_problem_definition definition;
+  ambulo__foot_outline outlines[2];
+  ambulo__slots slots;
+} fixture;
+
+static void open_with(fixture *f, ambulo_model *model, int steps) {
+  f->model = model;
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = steps,
+                      .first_foot = WALKER_LEFT,
+                      .step_length = 0.6,
+                      .step_time = 0.5,
+                      .step_width = 0.18,
+                      .foot_flat = 0.1,
+                      .heel_off = 0.4,
+                      .toe_off = 0.6,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
+  f->definition = ambulo_problem_definition_default();
+  f->definition.model = f->model;
+  f->definition.duration = 0.5 * steps;
+  f->definition.ends = steps % 2 ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+  f->definition.travel = 0.6 * steps;
+  f->definition.contacts = f->contacts;
+  assert_int_equal(
+      ambulo_gait_expand(f->model, &gait, f->contacts, 12, &f->definition.contact_count), 0);
+  for (int i = 0; i < 2; i++) f->outlines[i] = ambulo__foot_outline_of(f->model, i);
+  f->slots = ambulo__slots_of(&f->definition);
+}
+
+static void close_it(fixture *f) {
+  ambulo_model_free(f->model);
+}
+
+static ambulo__contact_load load_at(const fixture *f, int slot, double time) {
+  return ambulo__contact_load_at(&f->definition, f->outlines, &f->slots, slot, NULL, time);
+}
+
+static double smooth(double u) {
+  return u * u * (3.0 - 2.0 * u);
+}
+
+static void feet_are_slots_and_toes_behind_a_joint_too(void **state) {
+  (void)state;
+  ambulo_model *walker = walker_create(0), *toed = toed_body();
+  ambulo_problem_definition of_walker = {.model = walker}, of_toed = {.model = toed};
+  ambulo__slots two = ambulo__slots_of(&of_walker), four = ambulo__slots_of(&of_toed);
+  assert_int_equal(two.count, 2);
+  assert_int_equal(four.count, 4);
+  for (int i = 0; i < 4; i++) {
+    int foot = i % 2;
+    const ambulo_foot *f = &toed->feet[foot];
+    int point = i < 2 ? f->heel_center : f->toe_center;
+    assert_int_equal(four.effector[i], foot);
+    assert_int_equal(four.link[i], toed->points[point].link);
+    assert_int_equal(four.part[i], i < 2 ? AMBULO__REAR_FOOT : AMBULO__FORE_FOOT);
+    assert_string_equal(ambulo__slot_name(toed, &four, i), toed->points[point].name);
+    if (i >= 2) continue;
+    assert_int_equal(two.effector[i], i);
+    assert_int_equal(two.part[i], AMBULO__WHOLE_FOOT);
+    assert_string_equal(ambulo__slot_name(walker, &two, i), walker->feet[i].name);
+  }
+  ambulo_model_free(walker);
+  ambulo_model_free(toed);
+}
+
+static void weights_rise_while_the_other_foot_is_there(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, walker_create(0), 2);
+  static const double time[] = {0.0, 0.025, 0.05, 0.1, 0.3, 0.5, 0.525, 0.575};
+  static const double share[] = {0.0, 0.25, 0.5, 1.0, 1.0, 1.0, 0.75, 0.25};
+  for (int i = 0; i < 8; i++) {
+    assert_close(load_at(&f, WALKER_LEFT, time[i]).weight, smooth(share[i]), 1e-12);
+    /* the other foot's the other way round */
+    double other = time[i] < 0.2 ? 1.0 - share[i] : time[i] < 0.5 ? 0.0 : 1.0 - share[i];
+    assert_close(load_at(&f, WALKER_RIGHT, time[i]).weight, smooth(other), 1e-12);
+  }
+  ambulo__contact_load air = load_at(&f, WALKER_RIGHT, 0.3);
+  assert_false(air.loaded);
+  const ambulo_contact *left = &f.contacts[0];
+  for (int i = 0; i < f.definition.contact_count; i++)
+    if (f.contacts[i].foot == WALKER_LEFT && f.contacts[i].mode == AMBULO_CONTACT_TOE)
+      left = &f.contacts[i];
+  ambulo__contact_load last =
+      ambulo__contact_load_at(&f.definition, f.outlines, &f.slots, WALKER_LEFT, left, left->to);
+  assert_true(last.loaded);
+  assert_close(last.weight, 0.0, 1e-12);
+  assert_close(last.most, 0.0, 1e-9);
+  close_it(&f);
+}
+
+/* 0.24 m from the heel's to the toes': flat 0.12, reached when nobody else is there any more */
+static void the_centre_glides_from_heel_to_toes(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, walker_create(0), 2);
+  /* flat from 0.1 to 0.4 s: neither the toe-off at 0.1 s nor the strike at 0.5 s is inside */
+  static const double time[] = {0.05, 0.1, 0.175, 0.25, 0.325, 0.45};
+  static const double roll[] = {0.0, 0.0, 0.25, 0.5, 0.75, 1.0};
+  for (int i = 0; i < 6; i++) {
+    ambulo__contact_load load = load_at(&f, WALKER_LEFT, time[i]);
+    assert_close(load.center[0] - load.frame.origin[0], 0.24 * roll[i], 1e-12);
+    assert_close(load.center[2], -0.09, 1e-12);
+    assert_close(load.center[1], 0.0, 1e-12);
+  }
+  /* the other foot leaves at 0.16 s, and comes at 0.34 s: the foot stays put in between */
+  for (int i = 0; i < f.definition.contact_count; i++) {
+    ambulo_contact *c = &f.contacts[i];
+    if (c->foot != WALKER_RIGHT) continue;
+    if (fabs(c->to - 0.1) < 1e-9) c->to = 0.16;
+    if (fabs(c->from - 0.5) < 1e-9 && c->to > c->from) c->from = 0.34;
+  }
+  assert_close(load_at(&f, WALKER_LEFT, 0.13).center[0], 0.12 * smooth(0.5), 1e-12);
+  for (int i = 0; i <= 6; i++)
+    assert_close(load_at(&f, WALKER_LEFT, 0.16 + 0.03 * i).center[0], 0.12, 1e-12);
+  assert_close(load_at(&f, WALKER_LEFT, 0.37).center[0], 0.12 + 0.12 * smooth(0.5), 1e-12);
+  close_it(&f);
+}
+
+/* The other foot leaves at 0.1 s and a bit, or comes a bit before 0.4 s: a sixteenth of the 0.3 s
+ * between is the least. Within the bit the centre would jump, and the load with it */
+static void no_glide_is_shorter_than_a_sixteenth(void **state) {
+  (void)state;
+  static const double bits[] = {1e-4, 1e-3, 0.018};
+  for (int b = 0; b < 3; b++) {
+    fixture f;
+    open_with(&f, walker_create(0), 2);
+    for (int i = 0; i < f.definition.contact_count; i++) {
+      ambulo_contact *c = &f.contacts[i];
+      if (c->foot != WALKER_RIGHT) continue;
+      if (fabs(c->to - 0.1) < 1e-9) c->to = 0.1 + bits[b];
+      if (fabs(c->from - 0.5) < 1e-9 && c->to > c->from) c->from = 0.4 - bits[b];
+    }
+    for (int i = 0; i <= 4; i++) {
+      double part = 0.25 * i, glide = 0.3 / 16.0;
+      assert_close(load_at(&f, WALKER_LEFT, 0.1 + part * glide).center[0], 0.12 * smooth(part),
+                   1e-12);
+      assert_close(load_at(&f, WALKER_LEFT, 0.4 - part * glide).center[0],
+                   0.24 - 0.12 * smooth(part), 1e-12);
+    }
+    close_it(&f);
+  }
+}
+
+/* down on the toes, then flat: from the toes back */
+static void a_foot_may_come_down_on_its_toes(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, walker_create(0), 2);
+  static const ambulo_contact contacts[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.2, .place = {0.0, -0.1}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.2, 0.6, .place = {0.0, -0.1}},
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.6, 1.0, .place = {0.0, -0.1}}};
+  f.definition.contacts = contacts;
+  f.definition.contact_count = 3;
+  f.definition.ends = AMBULO_ENDS_FREE;
+  static const double time[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.9};
+  static const double roll[] = {1.0, 1.0, 0.75, 0.5, 0.25, 0.0, 0.0};
+  for (int i = 0; i < 7; i++) {
+    ambulo__contact_load load = load_at(&f, WALKER_RIGHT, time[i]);
+    assert_close(load.center[0], 0.24 * roll[i], 1e-12);
+    assert_close(load.weight, 1.0, 0.0);
+    assert_true(isinf(load.most));
+  }
+  close_it(&f);
+}
+
+static void patches_are_about_the_centre(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, walker_create(0), 2);
+  ambulo__contact_load heel = load_at(&f, WALKER_LEFT, 0.05);
+  ambulo__contact_load flat = load_at(&f, WALKER_LEFT, 0.25);
+  ambulo__contact_load toe = load_at(&f, WALKER_LEFT, 0.45);
+  assert_close(heel.box[0], -0.02, 1e-12);
+  assert_close(heel.box[1], 0.03 + 0.04 * 0.5, 1e-12);
+  assert_close(heel.rolled, 0.5, 1e-12);
+  assert_close(flat.box[0], -0.005 - 0.12, 1e-12);
+  assert_close(flat.box[1], 0.22 + 0.02 - 0.12, 1e-12);
+  assert_close(toe.box[0], -0.02 - 0.02, 1e-12);
+  assert_close(toe.box[1], 0.055 - 0.02, 1e-12);
+  assert_close(toe.side, 0.035, 0.0);
+  assert_close(flat.rolled + toe.rolled, 0.0, 0.0);
+  for (int end = 0; end < 2; end++) assert_int_equal(heel.cut[end] + flat.cut[end], 0);
+  close_it(&f);
+}
+
+/* rate 15 / s that sets in over 6.5 ms, from either end of the stance of 0.6 s */
+static void the_load_comes_and_goes_at_a_rate(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, walker_create(0), 1);
+  static const double time[] = {0.0, 0.004, 0.03, 0.2, 0.3, 0.45};
+  for (int i = 0; i < 6; i++) {
+    double s = fmin(time[i], 0.6 - time[i]), h = 1e-6;
+    ambulo__contact_load load = load_at(&f, WALKER_LEFT, time[i]);
+    assert_close(load.most, 15.0 * (s - 0.0065 * (1.0 - exp(-s / 0.0065))), 1e-12);
+    assert_close(load.since, time[i], 1e-12);
+    assert_close(load.until, 0.6 - time[i], 1e-12);
+    /* all times h longer */
+    double longer = s * (1.0 + h);
+    double more = 15.0 * (longer - 0.0065 * (1.0 - exp(-longer / 0.0065)));
+    assert_close(load.most_by_time, (more - load.most) / h, 1e-5);
+  }
+  f.definition.ground_reaction.loading_rate = AMBULO_OFF;
+  assert_true(isinf(load_at(&f, WALKER_LEFT, 0.03).most));
+  close_it(&f);
+}
+
+/* no jump of weight or centre as time goes on, and none of force: a slot that begins or ends has no
+ * weight there; of feet with and without a joint of the toes */
+static void nothing_jumps(void **state) {
+  (void)state;
+  for (int toed = 0; toed < 2; toed++) {
+    fixture f;
+    open_with(&f, toed ? toed_body() : walker_create(0), 2);
+    const double step = 1e-5;
+    for (int slot = 0; slot < f.slots.count; slot++) {
+      ambulo__contact_load before = load_at(&f, slot, 0.0);
+      double travelled = 0.0;
+      for (int k = 1; k < 99999; k++) {
+        ambulo__contact_load now = load_at(&f, slot, step * k);
+        assert_true(fabs(now.weight - before.weight) < 50.0 * step);
+        if (now.loaded && before.loaded) {
+          double moved = fabs(now.center[0] - before.center[0]);
+          /* a foothold further on belongs to another stance */
+          if (fabs(now.frame.origin[0] - before.frame.origin[0]) < 1e-9) {
+            assert_true(moved < 10.0 * step);
+            travelled += moved;
+          }
+        }
+        before = now;
+      }
+      if (!toed) assert_true(travelled > 0.2);
+    }
+    close_it(&f);
+  }
+}
+
+/* the heel's part alone, both, the toes' part alone; each begins and ends without weight */
+static void a_foot_with_a_joint_rolls_from_one_part_to_the_other(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, toed_body(), 2);
+  double length = f.outlines[TOED_LEFT].length;
+  static const double time[] = {0.08, 0.1, 0.175, 0.25, 0.325, 0.4, 0.45};
+  static const double rear[] = {0, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0};
+  static const double fore[] = {0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
+  for (int i = 1; i < 7; i++) {
+    ambulo__contact_load heel = load_at(&f, TOED_LEFT, time[i]);
+    ambulo__contact_load toes = load_at(&f, 2 + TOED_LEFT, time[i]);
+    assert_close(heel.weight, rear[i], 1e-12);
+    assert_close(toes.weight, fore[i], 1e-12);
+    if (heel.loaded) {
+      double roll = time[i] < 0.25 ? 0.5 * smooth((time[i] - 0.1) / 0.15) : 0.5;
+      assert_close(heel.center[0] - heel.frame.origin[0], roll * length, 1e-12);
+      assert_close(heel.box[1] + heel.center[0], heel.frame.origin[0] + length, 1e-12);
+      assert_true(heel.cut[1] && !heel.cut[0]);
+      assert_close(heel.since, time[i], 1e-12); /* down since the strike, up to heel-off */
+      assert_close(heel.until, 0.4 - time[i], 1e-12);
+    }
+    assert_close(toes.center[0] - toes.frame.origin[0], length + 0.02, 1e-12);
+    assert_close(toes.box[0], -0.02, 1e-12); /* from the ball on */
+    assert_true(toes.cut[0] && !toes.cut[1]);
+    assert_close(toes.since, time[i] - 0.1, 1e-12);
+    assert_close(toes.until, 0.6 - time[i], 1e-12);
+  }
+  assert_false(load_at(&f, 2 + TOED_LEFT, 0.08).loaded);
+  assert_false(load_at(&f, TOED_LEFT, 0.45).loaded);
+  close_it(&f);
+}
+
+/* one mirrored step is told what the stride of two steps is told */
+static void a_mirrored_step_is_told_the_same(void **state) {
+  (void)state;
+  fixture one, two;
+  open_with(&one, walker_create(0), 1);
+  open_with(&two, walker_create(0), 2);
+  for (int k = 0; k < 72; k++) {
+    double t = 0.0069 * k;
+    for (int foot = 0; foot < 2; foot++) {
+      ambulo__contact_load a = load_at(&one, foot, t), b = load_at(&two, foot, t);
+      assert_int_equal(a.loaded, b.loaded);
+      assert_close(a.weight, b.weight, 1e-12);
+      for (int i = 0; i < 3; i++) assert_close(a.center[i], b.center[i], 1e-12);
+      for (int i = 0; i < 2; i++) assert_close(a.box[i], b.box[i], 1e-12);
+      assert_close(a.most, b.most, 1e-10);
+      /* and in the second half the other foot, mirrored */
+      ambulo__contact_load c = load_at(&two, 1 - foot, t + 0.5);
+      assert_close(a.weight, c.weight, 1e-12);
+      if (!a.loaded) continue;
+      assert_close(a.center[0] + 0.6, c.center[0], 1e-12);
+      assert_close(a.center[2], -c.center[2], 1e-12);
+      assert_close(a.most, c.most, 1e-10);
+    }
+  }
+  close_it(&one);
+  close_it(&two);
+}
+
+/* the centre is ahead along the surface, not along the world */
+static void on_a_slope_the_centre_is_on_the_surface(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, walker_create(0), 2);
+  for (int i = 0; i < f.definition.contact_count; i++) {
+    f.contacts[i].place[2] = 0.3;
+    f.contacts[i].normal[0] = -0.2;
+    f.contacts[i].normal[2] = 1.0;
+    f.contacts[i].heading = 0.4;
+  }
+  ambulo__contact_load load = load_at(&f, WALKER_LEFT, 0.25);
+  for (int i = 0; i < 3; i++)
+    assert_close(load.center[i], load.frame.origin[i] + 0.12 * load.frame.forward[i], 1e-12);
+  assert_close(load.frame.origin[1], 0.3, 1e-12);
+  assert_true(load.frame.forward[1] > 0.1);
+  close_it(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(feet_are_slots_and_toes_behind_a_joint_too),
+      cmocka_unit_test(weights_rise_while_the_other_foot_is_there),
+      cmocka_unit_test(the_centre_glides_from_heel_to_toes),
+      cmocka_unit_test(no_glide_is_shorter_than_a_sixteenth),
+      cmocka_unit_test(a_foot_may_come_down_on_its_toes),
+      cmocka_unit_test(patches_are_about_the_centre),
+      cmocka_unit_test(the_load_comes_and_goes_at_a_rate),
+      cmocka_unit_test(nothing_jumps),
+      cmocka_unit_test(a_foot_with_a_joint_rolls_from_one_part_to_the_other),
+      cmocka_unit_test(a_mirrored_step_is_told_the_same),
+      cmocka_unit_test(on_a_slope_the_centre_is_on_the_surface)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,143 @@
+/* Files appear whole or not at all; nothing temporary is left. */
+#define _GNU_SOURCE
+#include "formats/atomic_file.h"
+#include "support/fail_io.h"
+#include "support/messages.h"
+#include "support/scratch.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+
+static void files_are_created_and_replaced(void **state) {
+  const char *path = scratch_path(state, "result.csv");
+  assert_int_equal(ambulo__write_file(path, "one", 3, 0, NULL, NULL), AMBULO_OK);
+  assert_file_equal(path, "one");
+  assert_int_equal(ambulo__write_file(path, "two", 3, 1, NULL, NULL), AMBULO_OK);
+  assert_file_equal(path, "two");
+  assert_int_equal(ambulo__write_file(path, "", 0, 1, NULL, NULL), AMBULO_OK);
+  assert_file_equal(path, "");
+  assert_int_equal(entries_in(*state), 1);
+}
+
+static void the_umask_decides_on_permissions(void **state) {
+  const char *path = scratch_path(state, "f");
+  struct stat info;
+  mode_t before = umask(027);
+  assert_int_equal(ambulo__write_file(path, "x", 1, 0, NULL, NULL), AMBULO_OK);
+  umask(before);
+  assert_int_equal(stat(path, &info), 0);
+  assert_int_equal(info.st_mode & 0777, 0640);
+}
+
+static void expect_failure(const char *path, int replace, const char *message) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo__write_file(path, "new", 3, replace, NULL, list), AMBULO_E_IO);
+  assert_message(list, 0, message);
+  assert_message(list, 0, path);
+  ambulo_diagnostics_free(list);
+}
+
+static void existing_files_are_kept_unless_asked(void **state) {
+  const char *path = scratch_path(state, "f");
+  scratch_write(path, "old");
+  expect_failure(path, 0, "exists already");
+  assert_file_equal(path, "old");
+  assert_int_equal(entries_in(*state), 1);
+}
+
+static void impossible_places_are_reported(void **state) {
+  expect_failure(*state, 1, "a folder of that name exists");
+  expect_failure(scratch_path(state, "missing/f"), 1, "No such file");
+  scratch_write(scratch_path(state, "plain"), "");
+  expect_failure(scratch_path(state, "plain/f"), 1, "Not a directory");
+  assert_int_equal(entries_in(*state), 1);
+}
+
+static void a_full_device_is_reported(void **state) {
+  (void)state;
+  if (access("/dev/full", W_OK) != 0) skip();
+  expect_failure("/dev/full", 1, "No space left");
+  struct stat info;
+  assert_int_equal(stat("/dev/full", &info), 0);
+  assert_true(S_ISCHR(info.st_mode));
+}
+
+/* a size limit of the process stands for a full disk: the write fails half-way */
+static void a_failed_write_keeps_the_old_file_and_leaves_nothing(void **state) {
+  const char *path = scratch_path(state, "f");
+  scratch_write(path, "old");
+  static char large[100000];
+  struct rlimit limit, small;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  small = limit;
+  small.rlim_cur = 5000;
+  struct sigaction ignore = {.sa_handler = SIG_IGN}, before;
+  sigaction(SIGXFSZ, &ignore, &before);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  ambulo_status status = ambulo__write_file(path, large, sizeof large, 1, NULL, NULL);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  sigaction(SIGXFSZ, &before, NULL);
+  assert_int_equal(status, AMBULO_E_IO);
+  assert_file_equal(path, "old");
+  assert_int_equal(entries_in(*state), 1);
+}
+
+static void stale_temporaries_do_not_block(void **state) {
+  char name[64];
+  snprintf(name, sizeof name, "f.tmp-%ld-0", (long)getpid());
+  scratch_write(scratch_path(state, name), "left by a killed process");
+  const char *path = scratch_path(state, "f");
+  assert_int_equal(ambulo__write_file(path, "new", 3, 0, NULL, NULL), AMBULO_OK);
+  assert_file_equal(path, "new");
+}
+
+/* whichever step fails: a message, the old file or the whole new one, and nothing besides */
+static void every_step_may_fail(void **state) {
+  const char *path = scratch_path(state, "f");
+  int faults = 0;
+  for (int at = 0; at < 2 * FAIL_IO_STEPS; at++) {
+    int step = at / 2, replace = at % 2;
+    for (long k = 0;; k++) {
+      assert_in_range(k, 0, 20);
+      unlink(path);
+      if (replace) scratch_write(path, "old");
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      fail_io_arm(step, k);
+      ambulo_status status = ambulo__write_file(path, "new", 3, replace, NULL, list);
+      int failed = fail_io_disarm(), there = access(path, F_OK) == 0;
+      faults += failed;
+      /* closing the folder, when all is flushed, changes nothing any more */
+      int told = failed && !(step == FAIL_IO_CLOSE && k == 1);
+      assert_int_equal(status, told ? AMBULO_E_IO : AMBULO_OK);
+      assert_int_equal(ambulo_diagnostics_error_count(list), told);
+      if (told) assert_message(list, 0, "Input/output error");
+      char text[8] = "";
+      FILE *file = there ? fopen(path, "r") : NULL;
+      if (file) text[fread(text, 1, 7, file)] = '\0';
+      if (file) fclose(file);
+      assert_true(failed || there);
+      assert_true(!there || !strcmp(text, "new") || (failed && replace && !strcmp(text, "old")));
+      assert_true(there || !replace);
+      assert_int_equal(entries_in(*state), there);
+      ambulo_diagnostics_free(list);
+      if (!failed) break;
+    }
+  }
+  assert_in_range(faults, 12, 30);
+}
+
+#define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_open, scratch_close)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      WITH_SCRATCH(files_are_created_and_replaced),
+      WITH_SCRATCH(the_umask_decides_on_permissions),
+      WITH_SCRATCH(existing_files_are_kept_unless_asked),
+      WITH_SCRATCH(impossible_places_are_reported),
+      WITH_SCRATCH(a_full_device_is_reported),
+      WITH_SCRATCH(a_failed_write_keeps_the_old_file_and_leaves_nothing),
+      WITH_SCRATCH(every_step_may_fail),
+      WITH_SCRATCH(stale_temporaries_do_not_block),
+  };
+  return cmocka_run_group_tests_name("base/atomic_file", tests, NULL, NULL);
+}

@@ -1,0 +1,167 @@
+/* Motions of a study: as good as there is room for, and those of real results within half a step.
+ */
+#include "show/study_motions.h"
+
+#include "ambulo/ambulo.h"
+#include "support/inflate.h"
+#include "support/messages.h"
+#include "support/packed_motions.h"
+#include "support/scene_reading.h"
+#include "support/scratch.h"
+#include "support/walker_result.h"
+
+enum { COUNT = 4 };
+
+static char folder[COUNT][SCRATCH_PATH + 256];
+static char *folders[COUNT];
+
+/* the same walk, a little faster each time */
+static void results(void **state) {
+  for (int i = 0; i < COUNT; i++) {
+    walk w;
+    char name[8];
+    walk_open(&w, 12);
+    for (int k = 0; k < ambulo_problem_variable_count(w.problem); k++)
+      w.result->x[k] *= 1.0 + 0.01 * i;
+    snprintf(name, sizeof name, "r%d", i);
+    snprintf(folder[i], sizeof folder[i], "%s", scratch_path(state, name));
+    folders[i] = folder[i];
+    assert_int_equal(ambulo_report_write(w.problem, w.result, folder[i], NULL, NULL, NULL),
+                     AMBULO_OK);
+    walk_close(&w);
+  }
+}
+
+/* the list; to be freed. stands as told */
+static char *packed_in(double room, char *stands) {
+  ambulo__text_buffer out;
+  ambulo__text_init(&out, NULL);
+  memset(stands, 0, COUNT);
+  assert_int_equal(ambulo__study_motions(&out, folders, COUNT, room, NULL, stands), AMBULO_OK);
+  assert_true((double)out.length <= fmax(room, 2.0));
+  char *text = malloc(out.length + 1);
+  memcpy(text, ambulo__text_data(&out), out.length + 1);
+  ambulo__text_free(&out);
+  return text;
+}
+
+/* the only block, unpacked; to be freed */
+static char *block_of(const char *list, int count, size_t *size) {
+  char *map = malloc(strlen(list) + 16);
+  sprintf(map, "{\"motions\":%s}", list);
+  yaml_case c = yaml_open(map);
+  free(map);
+  const ambulo__yaml_node *motions = ambulo__yaml_get(c.root, "motions");
+  assert_int_equal(ambulo__yaml_items(motions), 1);
+  const ambulo__yaml_node *one = ambulo__yaml_item(motions, 0);
+  size_t bytes;
+  assert_int_equal(ambulo__yaml_integer(ambulo__yaml_get(one, "count"), 0, 99, 0), count);
+  char *packed = unbase64(ambulo__yaml_text(ambulo__yaml_get(one, "packed")), &bytes);
+  char *block = (char *)unpacked(packed, bytes, size);
+  free(packed);
+  yaml_shut(&c);
+  return block;
+}
+
+static void assert_like_scene(const double *got, const char *kinds, int samples, const char *path) {
+  char *text = read_text(path);
+  yaml_case c = yaml_open(text);
+  int compared = 0;
+  double step = 2e-3 / 4.0;
+  const ambulo__yaml_node *points = ambulo__yaml_get(c.root, "points");
+  for (int i = 0; i < ambulo__yaml_items(points); i++)
+    for (int axis = 0; axis < 3; axis++, compared++)
+      for (int k = 0; k < samples; k += 20)
+        assert_true(fabs(got[(3 * i + axis) * samples + k] * step -
+                         scene_point(c.root, i, axis, k)) <= 0.5001 * step);
+  assert_true(compared >= 9);
+  for (int i = 0; i < compared; i++) assert_int_equal(kinds[i], 'l');
+  yaml_shut(&c);
+  free(text);
+}
+
+static void all_that_there_is(void **state) {
+  results(state);
+  char stands[COUNT];
+  size_t size;
+  char *list = packed_in(1e9, stands), *block = block_of(list, COUNT, &size);
+  const char *kinds = strstr(block, "\"kinds\":\"");
+  assert_non_null(strstr(block, "{\"every\":1,\"steps\":{\"l\":0.0005,"));
+  assert_non_null(kinds);
+  kinds += strlen("\"kinds\":\"");
+  int series = (int)strcspn(kinds, "\""), samples = 161;
+  size_t at = strlen(block) + 1;
+  packed_motions p = read_motions(block + at, size - at, COUNT, series, samples);
+  assert_int_equal(at + p.length, size);
+  for (int i = 0; i < COUNT; i++) {
+    char name[16];
+    snprintf(name, sizeof name, "r%d/scene.json", i);
+    assert_like_scene(p.values + (size_t)i * (size_t)(series * samples), kinds, samples,
+                      scratch_path(state, name));
+    assert_int_equal(stands[i], 1);
+  }
+  free(p.values);
+  free(block);
+  free(list);
+}
+
+/* less and less room: coarser, then fewer samples, then fewer cases, then none */
+static void less_room(void **state) {
+  results(state);
+  char stands[COUNT];
+  size_t size;
+  int before = COUNT, every = 1, cut = 0;
+  char *list = packed_in(1e9, stands);
+  double most = (double)strlen(list), step = 0.0;
+  free(list);
+  for (double room = most + 200.0; before > 0; room *= 0.85) {
+    list = packed_in(room, stands);
+    int count = 0;
+    while (count < COUNT && stands[count]) count++;
+    for (int i = count; i < COUNT; i++) assert_int_equal(stands[i], 0);
+    assert_true(count <= before);
+    before = count;
+    if (count == 0) {
+      assert_string_equal(list, "[]");
+    } else {
+      char *block = block_of(list, count, &size);
+      int now = atoi(strstr(block, "every\":") + strlen("every\":"));
+      double fine = atof(strstr(block, "\"l\":") + strlen("\"l\":"));
+      assert_true(now >= every && fine >= step);
+      assert_true(count == COUNT || now == 4);
+      every = now;
+      step = fine;
+      cut |= count < COUNT;
+      free(block);
+    }
+    free(list);
+  }
+  assert_int_equal(every, 4);
+  assert_true(cut);
+}
+
+static void folders_that_are_none(void **state) {
+  results(state);
+  char stands[COUNT] = {0};
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__text_buffer out;
+  ambulo__text_init(&out, NULL);
+  folders[2] = (char *)(uintptr_t)scratch_path(state, "nowhere");
+  assert_int_equal(ambulo__study_motions(&out, folders, COUNT, 1e9, list, stands), AMBULO_E_IO);
+  assert_message(list, 0, "nowhere");
+  ambulo__text_clear(&out);
+  assert_int_equal(ambulo__study_motions(&out, folders, 0, 1e9, list, stands), AMBULO_OK);
+  assert_string_equal(ambulo__text_data(&out), "[]");
+  ambulo__text_free(&out);
+  ambulo_diagnostics_free(list);
+}
+
+int main(void) {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
+  const struct CMUnitTest tests[] = {
+      TEST(all_that_there_is),
+      TEST(less_room),
+      TEST(folders_that_are_none),
+  };
+  return cmocka_run_group_tests_name("page/study_motions", tests, NULL, NULL);
+}

@@ -1,0 +1,138 @@
+/* Numbers of devices, and what else moves when bodies wear them, by hand against central
+ * differences. */
+#include "solver/partials.h"
+#include "support/sensitivity_check.h"
+
+/* beside a foot's stride; angles in degrees */
+static void springs_on_four_steps(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/yardstick_12.yaml",
+      {"angles=degrees", "time.duration=null", "gait.step_time=0.6105",
+       "devices=[{name: ankle_r, kind: spring, coordinate: ankle_r, stiffness: 180, rest: -3, "
+       "pretension: 4, side: above, smoothing: 5, foot: right, "
+       "engaged: {from: 0.02, to: 0.6, ramp: 0.1}, mirror: true}, "
+       "{name: tendon, kind: spring, between: [{link: foot_r, position: [0.1, 0, 0]}, "
+       "{link: foot_l, position: [0.1, 0, 0]}], stiffness: 120, rest: 0.25, side: above, "
+       "smoothing: 0.05}, "
+       "{name: brake, kind: damper, between: [{link: foot_r, position: [0, 0, 0]}, "
+       "{link: pelvis, position: [0, 0.3, 0.1]}], damping: 12}, "
+       "{name: motor, kind: actuator, coordinate: hip_flexion_l, amount: 3, by: stride, foot: "
+       "left, "
+       "points: [[0, 1], [0.3, 2.5], [0.7, -1]]}, "
+       "{name: push, kind: actuator, coordinate: knee_r, amount: -4, by: time, "
+       "points: [[0.1, 0], [0.5, 1], [1.9, 0.2]]}, "
+       "{name: pull, kind: actuator, coordinate: knee_l, amount: 2}]",
+       "objective=[{term: torque_squared, weight: 0.01, scale: {pelvis_tx: 0.05, pelvis_ty: 0.05, "
+       "pelvis_tz: 0.05}, offset: {pelvis_tz: body_weight}}, "
+       "{term: device_effort, weight: 0.02, scale: {tendon: 0.3, brake: 0.1, default: 0.05}}]"},
+      {"devices[ankle_r].stiffness", "devices[ankle_r].rest", "devices[ankle_r].pretension",
+       "devices[ankle_r].smoothing", "devices[ankle_r].engaged.from", "devices[ankle_r].engaged.to",
+       "devices[ankle_r].engaged.ramp", "devices[tendon].stiffness", "devices[tendon].rest",
+       "devices[brake].damping", "devices[motor].amount", "devices[push].amount",
+       "devices[pull].amount", "gait.step_time", "objective[device_effort].weight",
+       "ground.slope"}};
+  check(&c, NULL);
+}
+
+/* both sides listed, mirrored ends, contacts that share the load, nodes on events that move */
+static void a_mirrored_step_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_normal.yaml",
+      {"time.intervals=30", "trajectory.intervals=9",
+       "devices=[{name: ankle_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: 1, "
+       "side: above, smoothing: 4, foot: right, engaged: {from: 0.05, to: 0.65, ramp: 0.08}}, "
+       "{name: ankle_l, kind: spring, coordinate: ankle_angle_l, stiffness: 150, rest: 1, "
+       "side: above, smoothing: 4, foot: left, engaged: {from: 0.05, to: 0.65, ramp: 0.08}}, "
+       "{name: hip, kind: actuator, coordinate: hip_flexion_r, amount: 4, by: stride, foot: right, "
+       "points: [[0, -1], [0.4, 0.5], [0.6, 2]], mirror: true}, "
+       "{name: band, kind: spring, between: [{point: heel_r}, {point: heel_l}], stiffness: 60, "
+       "rest: 0.3, pretension: 2}]"},
+      {"devices[ankle_r].stiffness", "devices[ankle_r].rest", "devices[hip].amount",
+       "devices[band].stiffness", "devices[band].rest", "devices[band].pretension",
+       "gait.phases.toe_off", "gait.phases.heel_off", "subject.mass", "ground.slope",
+       "devices[ankle_r].engaged.to"}};
+  check(&c, NULL);
+}
+
+static void several_loads(void **state) {
+  (void)state;
+  static const setting c = {"models/walk_normal.yaml",
+                            {"time.intervals=24", "trajectory.intervals=9",
+                             "load=[{link: pelvis, mass: 12, position: [-0.2, 0.4, 0]}, "
+                             "{link: foot_r, mass: 1.5, position: [0.05, 0, 0]}, "
+                             "{link: foot_l, mass: 1.5, position: [0.05, 0, 0]}]"},
+                            {"load[0].mass", "load[1].mass", "subject.mass", "ground.slope"}};
+  check(&c, NULL);
+}
+
+/* a strike inside the motion is an event: strides move with it */
+static void strikes_that_move(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walker_2d_step.yaml",
+      {"gait=null", "ends={kind: periodic, order: 1, travel: 0.8}", "time.duration=1",
+       "angles=degrees",
+       "contacts=[{foot: right, mode: flat, from: 0, to: 0.45, place: [0, 0]}, "
+       "{foot: left, mode: toe, from: 0, to: 0.1, place: [-0.4, 0]}, "
+       "{foot: left, mode: flat, from: 0.4, to: 1, place: [0.4, 0]}, "
+       "{foot: right, mode: toe, from: 0.45, to: 0.6, place: [0, 0]}, "
+       "{foot: right, mode: heel, from: 0.9, to: 1, place: [0.8, 0]}]",
+       "time.grid=events", "time.intervals=24", "trajectory.knots=events", "trajectory.degree=4",
+       "trajectory.intervals=10",
+       "devices=[{name: knee, kind: spring, coordinate: knee_angle_l, stiffness: 90, rest: 4, "
+       "foot: left, engaged: {from: 0.8, to: 0.4, ramp: 0.1}}, "
+       "{name: hip, kind: actuator, coordinate: hip_flexion_r, amount: 5, by: stride, foot: right, "
+       "points: [[0.1, -1], [0.4, 0.5], [0.6, 2]]}]"},
+      {"contacts[2].from", "contacts[4].from", "devices[knee].stiffness", "devices[hip].amount",
+       "devices[knee].engaged.from"}};
+  check(&c, NULL);
+}
+
+/* Springs that have no stiffness: what the first of it would save, against differences to one side
+ * over 0, h and 2 h, since a file has none below 0. */
+static void springs_of_no_stiffness(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_normal.yaml",
+      {"time.intervals=24", "trajectory.intervals=9",
+       "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 0, rest: 1, "
+       "side: above, smoothing: 4, mirror: true}, "
+       "{name: band, kind: spring, between: [{point: heel_r}, {point: heel_l}], stiffness: 0, "
+       "rest: 0.3, pretension: 2}]"},
+      {NULL}};
+  static const struct {
+    const char *name, *unit, *words;
+  } wanted[2] = {{"devices[exo_r].stiffness", "N m/rad", "1 N m/rad more stiffness of exo_r (both"},
+                 {"devices[band].stiffness", "N/m", "10 N/m more stiffness of band "}};
+  listed l = list_open(&c);
+  for (int k = 0; k < 2; k++) {
+    const ambulo_sensitivity *s = NULL;
+    double value[3], by = 1e-3;
+    for (int i = 0; i < l.list->count; i++)
+      if (strcmp(l.list->items[i].name, wanted[k].name) == 0) s = &l.list->items[i];
+    assert_non_null(s);
+    assert_string_equal(s->unit, wanted[k].unit);
+    assert_memory_equal(s->words, wanted[k].words, strlen(wanted[k].words));
+    for (int i = 0; i < 3; i++) {
+      ambulo_problem *moved = moved_problem(c.file, c.overrides, l.count, l.problem, s, i * by);
+      assert_non_null(moved);
+      value[i] = lagrangian_at(moved, l.result->x, l.result->multiplier, l.result->rows);
+      ambulo_problem_free(moved);
+    }
+    double difference = (4.0 * value[1] - 3.0 * value[0] - value[2]) / (2.0 * by);
+    assert_true(fabs(s->derivative) > 1e-6);
+    assert_true(fabs(s->derivative - difference) <=
+                1e-7 * fabs(s->derivative) + 1e-14 * (fabs(value[0]) + 1.0) / by);
+  }
+  list_close(&l);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(springs_on_four_steps), cmocka_unit_test(a_mirrored_step_on_events),
+      cmocka_unit_test(several_loads), cmocka_unit_test(strikes_that_move),
+      cmocka_unit_test(springs_of_no_stiffness)};
+  return cmocka_run_group_tests_name("sensitivity/devices", tests, NULL, NULL);
+}

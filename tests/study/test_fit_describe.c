@@ -1,0 +1,37 @@
+/* What was understood of a fit file, in words. */
+#include "ambulo/report.h"
+#include "support/fit_files.h"
+#include "study/fit_outcome.h"
+
+static void in_words(void **state) {
+  ambulo_fit *f = fit_of(state, FIT_HEAD FIT_PARAMETERS
+                         "conditions:\n  - {name: slow, reference: slow.csv}\n"
+                         "  - {name: quick, set: {time.duration: 0.7}, reference: quick.csv,\n"
+                         "     held_out: true}\n" FIT_DISTANCE "method: {iterations: 4}\n");
+  char *text = NULL;
+  assert_int_equal(ambulo_fit_describe(f, NULL, &text), AMBULO_OK);
+  static const char *const parts[] = {"parameter    price, times 0.05 to 20\n",
+                                      "             objective[acceleration].weight: 2\n",
+                                      "parameter    last, plus -0.5 to 0.5\n",
+                                      "condition    slow, ",
+                                      "condition    quick, held out, ",
+                                      "quick.csv, time.duration=0.7\n",
+                                      "             pin: 21 points, deviation 2 deg\n",
+                                      "residuals    23\n"};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+    if (!strstr(text, parts[i])) print_error("%s is missing from\n%s\n", parts[i], text);
+    assert_non_null(strstr(text, parts[i]));
+  }
+  /* 2 at the start, 4 times (2 + 5) of one condition, 1 held out and 2 from zero at the end */
+  assert_int_equal(ambulo__fit_expected(f), 2 + 4 * 7 + 1 + 2);
+  assert_non_null(strstr(text, "solves       about 33\n"));
+  ambulo_text_free(text, NULL);
+  assert_int_equal(ambulo_fit_describe(NULL, NULL, &text), AMBULO_E_ARGUMENT);
+  ambulo_fit_free(f);
+}
+
+int main(void) {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
+  const struct CMUnitTest tests[] = {TEST(in_words)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
