@@ -112,7 +112,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all help setup demo check tests run-tests bench bench-table1 bench-table4 bench-peers \
+.PHONY: all help setup demo check tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
@@ -238,6 +238,8 @@ check: build/.ready-test
 	$(submake) run-tests
 
 tests: $(TESTS)
+# what tests are compiled to, without linking: is every call still right?
+test-objects: $(patsubst %.c,$(OUT)/obj/%.o,$(TEST_SOURCES) $(BENCH_SOURCES))
 
 # every program that was built runs, whatever became of the others; a failed build is a failure
 run-tests:
