@@ -116,7 +116,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
   sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
-  lint-equations lint-reading lint-keys lint-leftovers format \
+  lint-equations lint-reading lint-keys lint-words lint-leftovers format \
   install uninstall clean force
 
 # A second make with as many jobs as there are processors, unless -j was given. It also reads
@@ -308,7 +308,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols callers mirror headers interface equations reading keys leftovers
+LINT := format static order size symbols callers mirror headers interface equations reading keys words leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
@@ -348,6 +348,8 @@ lint-reading:
 	@.setup/lint_reading.sh
 lint-keys:
 	@.setup/lint_keys.sh
+lint-words:
+	@.setup/lint_words.sh
 lint-leftovers:
 	@! grep -nE '\b(TODO|FIXME|XXX)\b' -r $(wildcard src include tests models bench docs README* CHANGELOG*)
 

@@ -1,7 +1,7 @@
 # man_page.awk: a page of docs/ as a manual page, man(7) source on standard output.
 #
 #   awk -f .setup/man_page.awk -v name=ambulo-problem -v section=5 -v date=2026-11-23 \
-#     -v about='the format of problem files' -v version=0.1.0 docs/problem-format.md
+#     -v about='the format of problem files' -v version=0.2.0 docs/problem-format.md
 #
 # What the pages use: headings, paragraphs, lists, tables, code (fenced or indented by four columns),
 # `code`, **bold**, *italic*, [links](...). A row of a table becomes an item: its first cell, then

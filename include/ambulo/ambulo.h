@@ -35,9 +35,9 @@
 
 /* Of these headers; ambulo_version() is that of the library that is running. */
 #define AMBULO_VERSION_MAJOR 0
-#define AMBULO_VERSION_MINOR 1
+#define AMBULO_VERSION_MINOR 2
 #define AMBULO_VERSION_PATCH 0
-#define AMBULO_VERSION_STRING "0.1.0"
+#define AMBULO_VERSION_STRING "0.2.0"
 
 #include "ambulo/batch.h"
 #include "ambulo/collision.h"

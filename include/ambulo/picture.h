@@ -1,5 +1,5 @@
 /* ambulo/picture.h - pictures of a motion for a paper or a talk: SVG, PDF or PNG
- * (docs/guide-pictures.md).
+ * (docs/guide-page.md).
  *
  * SVG is written by the library itself. PDF and PNG are made of it by rsvg-convert (librsvg), a
  * program that is looked for on PATH when one is asked for: the library is linked to nothing for

@@ -145,7 +145,7 @@ const ambulo__cli_command ambulo__cli_draw = {
         "anew,\n"
         "with the parts, units and people that options ask for, from the solution's spline "
         "itself.\n"
-        "PDF and PNG need rsvg-convert (librsvg) on PATH. See docs/guide-pictures.md.",
+        "PDF and PNG need rsvg-convert (librsvg) on PATH. See docs/guide-page.md.",
     .example = "ambulo solve models/walk_normal.yaml -o on_paper\n"
                "ambulo draw on_paper -o walk.pdf\n"
                "ambulo draw models/walk_normal.yaml on_paper --curves --powers --per-kg --percent "

@@ -233,7 +233,7 @@ run_page() {
     if is_shell "$path"; then
       grep -q '^cc ' "$path" && continue # run with the programs
       { echo "place='$place'"; wanted_lines "$page" "$where" "$path"; } >>"$work/session.sh"
-    elif [ "$first" = '#!/bin/sh' ]; then # the script of docs/cluster.md
+    elif [ "$first" = '#!/bin/sh' ]; then # the script of docs/batch-format.md
       count "$place: the same as tests/study/slurm_array.sh" \
         diff "$path" <(sed '/^# sbatch/d' tests/study/slurm_array.sh)
       cp "$path" "$folder/slurm_array.sh"
