@@ -4,8 +4,7 @@
  *
  * The yardstick at N = 12 ... 576 by the pipeline (loading excluded, continuation and audit
  * included): processor seconds, where they go, evaluations, objective; the power of N that the
- * time grows with; then the small problems by each algorithm, with and without presolve, and two
- * with SLSQP as the finisher. A case
+ * time grows with; then the small problems by each algorithm, with and without presolve. A case
  * that ends without a feasible point is printed as such, and its time is not recorded. */
 #include "bench_csv.h"
 
@@ -109,15 +108,6 @@ static void report_algorithms(bench_table *table) {
   }
 }
 
-/* what the finisher costs; its evaluations, objective, violation and KKT residual */
-static void report_finisher(bench_table *table) {
-  static const char *const names[] = {"walker_2d_step, finished", "yardstick N = 12, finished"};
-  static const char *const paths[] = {AMBULO_SOURCE_DIR "/models/walker_2d_step.yaml",
-                                      AMBULO_SOURCE_DIR "/models/yardstick_12.yaml"};
-  const char *overrides[] = {"solver={finisher: slsqp}"};
-  for (int i = 0; i < 2; i++) (void)solve(table, names[i], paths[i], overrides, 1, 1);
-}
-
 int main(int argc, char **argv) {
   static bench_table table;
   if (argc > 1) {
@@ -127,7 +117,6 @@ int main(int argc, char **argv) {
   bench_open(&table, ambulo_instruction_set(), "solve");
   report_yardstick(&table);
   report_algorithms(&table);
-  report_finisher(&table);
   bench_close(&table);
   return 0;
 }

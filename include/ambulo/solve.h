@@ -81,13 +81,6 @@ typedef enum ambulo_equalities {
                              with its dense gradient: to compare; much slower. Up to 4 GB */
 } ambulo_equalities;
 
-/* What follows AUGLAG. */
-typedef enum ambulo_finisher {
-  AMBULO_FINISHER_NONE = 0,
-  AMBULO_FINISHER_SLSQP /* a short run of NLopt's SLSQP; its point is kept if the audit finds it
-                           better. Dense: up to 750 unknowns */
-} ambulo_finisher;
-
 /* Progress of a solve, given to the callback after every iteration (without presolve, every
  * evaluation that improves), and at least every tenth of a second during set-up, audit and
  * explanation, where the objective or the violation may be NAN: nothing to tell. */
@@ -120,7 +113,6 @@ typedef struct ambulo_options {
   double optimality_tolerance;  /* relative KKT residual that counts as optimal, 1e-14 to 1; 1e-3 */
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
-  ambulo_finisher finisher;     /* with presolve */
   ambulo_equalities equalities; /* with presolve; _NLOPT not with AMBULO_SLSQP, which gets them all
                                    anyway */
   int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:

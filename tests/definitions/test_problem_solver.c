@@ -11,7 +11,6 @@ static void absent_means_defaults(void **state) {
   assert_int_equal(got.size, want.size);
   assert_int_equal(got.algorithm, want.algorithm);
   assert_int_equal(got.presolve, want.presolve);
-  assert_int_equal(got.finisher, AMBULO_FINISHER_NONE);
   assert_int_equal(got.maximum_evaluations, want.maximum_evaluations);
   assert_close(got.feasibility_tolerance, want.feasibility_tolerance, 0.0);
   ambulo_problem_free(p);
@@ -36,7 +35,7 @@ static void every_key_arrives(void **state) {
   ambulo_problem *p = problem_of(
       HEAD "solver: {algorithm: auglag, presolve: off, maximum_evaluations: 77, time_limit: 2.5,\n"
            "  feasibility_tolerance: 1e-7, optimality_tolerance: 1e-4, continuation: false,\n"
-           "  dense_samples: 3, finisher: slsqp, equalities: nlopt}\n");
+           "  dense_samples: 3, equalities: nlopt}\n");
   ambulo_options o = ambulo_problem_options(p);
   assert_int_equal(o.algorithm, AMBULO_AUGLAG);
   assert_int_equal(o.presolve, 0);
@@ -46,7 +45,6 @@ static void every_key_arrives(void **state) {
   assert_close(o.optimality_tolerance, 1e-4, 1e-20);
   assert_int_equal(o.continuation, 0);
   assert_int_equal(o.dense_samples, 3);
-  assert_int_equal(o.finisher, AMBULO_FINISHER_SLSQP);
   assert_int_equal(o.equalities, AMBULO_EQUALITIES_NLOPT);
   ambulo_problem_free(p);
 }

@@ -263,24 +263,6 @@
  * walk_tracking from noise of 0.2 rad takes 29 to 188 iterations. T: smooth. */
 #define AMBULO__ROUGH_KEPT 0.5
 
-/* --------------------------------------------------------------- SLSQP at the end (finisher.c) */
-
-/* rounds of SLSQP, as rows outside the margin are met; evaluations of each, dense in n. Fewer
- * rounds: no change; half the evaluations: walker_2d_step as good. T: finisher (0;
- * 1). */
-#define AMBULO__FINISHER_ROUNDS 3
-#define AMBULO__FINISHER_EVALUATIONS 40
-/* excess, relative to a row's size: rows that are handed over. x: no change. */
-#define AMBULO__FINISHER_MARGIN 1e-2
-/* tolerances of gradients and of the surface. x: free. T: finisher, the surface's (1e-7). */
-#define AMBULO__FINISHER_ADJOINT 1e-8
-#define AMBULO__FINISHER_RETRACTION 1e-11
-/* given to NLopt: of rows, relative of value and point. x: free. T: finisher, the
- * rows' (1e-6). */
-#define AMBULO__FINISHER_ROW 1e-10
-#define AMBULO__FINISHER_VALUE 1e-13
-#define AMBULO__FINISHER_POINT 1e-13
-
 /* -------------------------------------------- SLSQP on small problems (nlopt_whitened.c) */
 
 /* evaluations of a round: walker_2d_step needs 130, two_link_reach 49. */

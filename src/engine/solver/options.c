@@ -23,7 +23,6 @@ void ambulo_options_fill(ambulo_options *filled, size_t size) {
       .continuation = 1,
       .starts = 1,
       .dense_samples = 10,
-      .finisher = AMBULO_FINISHER_NONE,
       .equalities = AMBULO_EQUALITIES_HELD,
   };
   ambulo__sized_fill(filled, size, &usual, sizeof usual);
@@ -64,9 +63,6 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
   if (options->algorithm < AMBULO_AUTO || options->algorithm > AMBULO_AUGLAG)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver algorithm %d", (int)options->algorithm);
-  if (options->finisher < AMBULO_FINISHER_NONE || options->finisher > AMBULO_FINISHER_SLSQP)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "unknown solver finisher %d", (int)options->finisher);
   if (options->equalities < AMBULO_EQUALITIES_HELD || options->equalities > AMBULO_EQUALITIES_NLOPT)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver equalities are %s (got %d); expected held or nlopt",

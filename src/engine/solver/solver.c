@@ -10,12 +10,10 @@
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (candidates.c).
  *
- * Reading order: solve.c, starts.h, solver.c, session.h, session.c, options.h, memory.h, better.h,
+ * Reading order: solve.c, starts.h, solver.c, session.h, session.c, options.h, memory.h,
  * audit_point.c; what they call: method/pipeline.c, method/refine.c, solver/audit.c.
  */
-#include "solver/better.h"
 #include "solver/session.h"
-#include "method/finisher.h"
 #include "method/nlopt_direct.h"
 #include "method/pipeline.h"
 #include "method/refine.h"
@@ -54,32 +52,6 @@ static ambulo_status solve_again(ambulo__session *s, double *x) {
   return status;
 }
 
-static ambulo_status finish_by_slsqp(ambulo__session *s, double *x) {
-  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
-  size_t n = (size_t)s->problem->variables;
-  if (n > AMBULO__FINISHER_UNKNOWNS) {
-    ambulo__note(s->diagnostics, ambulo__nowhere,
-                 "finisher: slsqp left out: %zu unknowns are more than %d", n,
-                 AMBULO__FINISHER_UNKNOWNS);
-    return AMBULO_OK;
-  }
-  double *other = ambulo__alloc(&a, n, sizeof *other);
-  if (!other) return AMBULO_E_MEMORY;
-  memcpy(other, x, n * sizeof *x);
-  const char *message = NULL;
-  int better = 0;
-  ambulo_status status = ambulo__finish(s->engine, other, &message);
-  if (!status)
-    status = ambulo__is_better(s->problem, s->run.options, x, other, s->allocator, &better);
-  if (better) {
-    memcpy(x, other, n * sizeof *x);
-    s->method = "NLopt's AUGLAG with LBFGS, then SLSQP";
-    s->nlopt = message;
-  }
-  ambulo__free(&a, other);
-  return status;
-}
-
 static ambulo__stage stage_of(ambulo__session *s, const double *x) {
   int near = !s->from_zero && ambulo__violation_at(s->engine, x) <= near_rows;
   return near ? AMBULO__NEAR : AMBULO__FAR;
@@ -98,8 +70,7 @@ static ambulo_status solve_by_pipeline(ambulo__session *s) {
   if (!status && levels > 0 && !s->run.stopped &&
       !(ambulo__violation_at(s->engine, x) <= o->feasibility_tolerance))
     status = solve_again(s, x);
-  if (status || s->run.stopped || o->finisher != AMBULO_FINISHER_SLSQP) return status;
-  return finish_by_slsqp(s, x);
+  return status;
 }
 
 static ambulo_status solve_small(ambulo__session *s, ambulo_algorithm algorithm, int most) {

@@ -19,14 +19,11 @@ static double read_limit(const ambulo__yaml_node *node) {
 
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const algorithms[] = {"auto", "slsqp", "auglag"};
-  static const char *const finishers[] = {"none", "slsqp"};
   static const char *const equalities[] = {"held", "nlopt"};
   ambulo_options *o = &reader->options;
   if (!section) return;
   int algorithm = ambulo__yaml_choice(ambulo__yaml_get(section, "algorithm"), algorithms, 3, 0);
   o->algorithm = (ambulo_algorithm)algorithm;
-  int finisher = ambulo__yaml_choice(ambulo__yaml_get(section, "finisher"), finishers, 2, 0);
-  o->finisher = (ambulo_finisher)finisher;
   int whose = ambulo__yaml_choice(ambulo__yaml_get(section, "equalities"), equalities, 2, 0);
   o->equalities = (ambulo_equalities)(AMBULO_EQUALITIES_HELD + whose);
   o->presolve = read_switch(ambulo__yaml_get(section, "presolve"), o->presolve);
