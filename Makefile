@@ -245,7 +245,7 @@ test-objects: $(patsubst %.c,$(OUT)/obj/%.o,$(TEST_SOURCES) $(BENCH_SOURCES))
 run-tests:
 	+@status=0; $(MAKE) --no-print-directory -k all tests || status=$$?; \
 	  BUILD_STATUS=$$status JOBS=$(JOBS) OUT=$(OUT) CC='$(CC)' CFLAGS='$(CFLAGS)' \
-	  CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' MODE='$(MODE)' tests/support/run_tests.sh $(TESTS)
+	  CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' MODE='$(MODE)' tests/support/all.sh $(TESTS)
 
 check-kill: build/.ready-build
 	$(submake) all
@@ -300,7 +300,7 @@ VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests
 valgrind: build/.ready-valgrind
 	$(submake) $(VALGRIND_TESTS)
 	@TEST_WRAPPER='valgrind -q --leak-check=full --error-exitcode=99' JOBS=$(JOBS) \
-	  OUT=build/valgrind tests/support/run_tests.sh $(VALGRIND_TESTS)
+	  OUT=build/valgrind tests/support/all.sh $(VALGRIND_TESTS)
 
 coverage: build/.ready-test
 	+@$(MAKE) --no-print-directory VARIANT=cov run-tests

@@ -4,12 +4,12 @@ import ambulo
 from support import TOP, Case, optional
 
 pandas = optional("pandas")
-ARM = TOP / "tests" / "fit" / "arm" / "fit.yaml"
+ARM = TOP / "tests" / "study" / "arm" / "fit.yaml"
 
 
 class Fits(Case):
     def test_two_prices_of_a_reach(self):
-        """Those that its references were made with are found (tests/fit)."""
+        """Those that its references were made with are found (tests/study)."""
         seen = []
         with ambulo.Fit.load(ARM) as fit:
             self.assertIn("elbow", fit.describe())

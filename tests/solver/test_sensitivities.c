@@ -160,7 +160,7 @@ static void phases_solved_anew(void **state) {
       "trajectory.degree=5", "time.intervals=34", "constraints.foot_strike=false",                 \
       "constraints.ground_penetration=false", "constraints.contact_tolerance=0.005"
 
-/* by other roundings multipliers of such solves differ by hundredths; tests/sensitivity has the
+/* by other roundings multipliers of such solves differ by hundredths; tests/solver has the
  * same numbers to 1e-7 where multipliers are fixed */
 static void contacts_that_share_solved_anew(void **state) {
   (void)state;

@@ -1,5 +1,5 @@
 // Stands last in the page of a task: plays it as its reader would, and tells what came of it. What every page
-// can do is checked by tests/page.
+// can do is checked by tests/show.
 (async () => {
   const results = [], $ = (id) => document.getElementById(id);
   const check = (what, ok, got) => results.push([Boolean(ok), what, got === undefined ? "" : String(got)]);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs test programs (arguments) and the scripts tests/*/run*.sh, JOBS at a time, and sums up.
+# Runs test programs (arguments) and the scripts tests/ROOM/run.sh, run_*.sh, JOBS at a time, and sums up.
 # The last line is "N passed, N failed"; the exit status is 0 only when nothing failed.
 # Environment: OUT (build folder), JOBS, BUILD_STATUS (non-zero: something did not build),
 # TEST_WRAPPER (a command put before each program), TEST_TIMEOUT in seconds.
@@ -33,7 +33,7 @@ run_one() {
 export -f run_one
 
 programs=("$@")
-[ -x "$out/ambulo" ] && programs+=(tests/*/run*.sh)
+[ -x "$out/ambulo" ] && programs+=(tests/*/run.sh tests/*/run_*.sh)
 # commands of the docs are about what users build, which is no variant of the compiler's
 case ${MODE:-} in *-fsanitize=* | *--coverage*)
   for i in "${!programs[@]}"; do
