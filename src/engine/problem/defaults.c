@@ -4,6 +4,7 @@
 #include "ambulo/extend.h"
 #include "base/sized.h"
 #include "problem/definition_parts.h"
+#include "problem/term.h"
 
 #include <math.h>
 
@@ -54,12 +55,10 @@ AMBULO__FILL(ambulo_reach, {.point = NOT_GIVEN, .about = NONE, .to = (double)INF
 AMBULO__FILL(ambulo_motion, {.size = size})
 
 void ambulo_term_fill(ambulo_term *filled, ambulo_term_kind kind, size_t size) {
+  const ambulo__term_info *info = ambulo__term_info_of(kind);
   ambulo_term usual = {.kind = kind, .weight = 1.0, .smoothing = 1.0, .power = 2.0, .height = 0.02};
-  if (kind == AMBULO_TORQUE_POWER) {
-    usual.power = 3.0;
-    usual.smoothing = 0.01;
-  }
-  if (kind == AMBULO_MECHANICAL_POWER) usual.smoothing = 0.05;
+  if (info && info->smoothing > 0.0) usual.smoothing = info->smoothing;
+  if (info && info->power > 0.0) usual.power = info->power;
   ambulo__sized_fill(filled, size, &usual, sizeof usual);
 }
 

@@ -5,7 +5,6 @@
  */
 #include "contact/collision.h"
 #include "problem/problem.h"
-#include "problem/user_term.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -220,33 +219,27 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
   if (!(term->weight >= 0.0 && term->weight <= largest))
     return REFUSE(list, "objective[%d] (%s): weight is %g; expected 0 to %g", t, info->name,
                   term->weight, largest);
-  int smoothed = term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_TORQUE_POWER ||
-                 term->kind == AMBULO_MECHANICAL_POWER;
-  if (smoothed && !(term->smoothing > 0.0 && term->smoothing <= largest))
+  int has = info->members;
+  if (has & AMBULO__TERM_SMOOTHING && !(term->smoothing > 0.0 && term->smoothing <= largest))
     return REFUSE(list, "objective[%d] (%s): smoothing is %g; expected a positive number", t,
                   info->name, term->smoothing);
-  if (term->kind == AMBULO_TORQUE_POWER && !(term->power >= 2.0 && term->power <= 8.0))
+  if (has & AMBULO__TERM_POWER && !(term->power >= 2.0 && term->power <= 8.0))
     return REFUSE(list, "objective[%d] (%s): power is %g; expected 2 to 8", t, info->name,
                   term->power);
-  if (term->kind == AMBULO_CLEARANCE && !(term->height > 0.0 && term->height <= longest))
+  if (has & AMBULO__TERM_HEIGHT && !(term->height > 0.0 && term->height <= longest))
     return REFUSE(list, "objective[%d] (%s): height is %g m; expected a positive length", t,
                   info->name, term->height);
-  if (term->kind == AMBULO_UPRIGHT && !is_line(d->model, term->point))
+  if (has & AMBULO__TERM_LINE && !is_line(d->model, term->point))
     return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points that are apart",
                   t, info->name, point_name(d->model, term->point[0]),
                   point_name(d->model, term->point[1]));
-  if (term->kind == AMBULO_FORCE_RATE && d->ground_reaction.kind == AMBULO_REACTION_NONE)
-    return REFUSE(list,
-                  "objective[%d] (%s): no forces on feet without ground_reaction; expected kind "
-                  "shared or two_step",
-                  t, info->name);
-  if (term->kind == AMBULO_DEVICE_EFFORT && d->device_count == 0)
-    return REFUSE(list, "objective[%d] (%s): there are no devices", t, info->name);
-  if (term->kind != AMBULO_MECHANICAL_POWER && term->tendon)
+  const char *lack = info->lacks ? info->lacks(d) : NULL;
+  if (lack) return REFUSE(list, "objective[%d] (%s): %s", t, info->name, lack);
+  if (term->tendon && !(has & AMBULO__TERM_TENDON))
     return REFUSE(list, "objective[%d] (%s): tendons; expected mechanical_power", t, info->name);
-  if (term->kind == AMBULO_TRACKING && !term->reference)
+  if (has & AMBULO__TERM_REFERENCE && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
-  if (ambulo__is_user_term(term) && !term->function)
+  if (has & AMBULO__TERM_CALLBACK && !term->function)
     return REFUSE(list, "objective[%d] (%s): no function", t, info->name);
   return AMBULO_OK;
 }
@@ -258,7 +251,7 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
   if (!term->strength_is_limits && term->price)
     return REFUSE(list, "objective[%d]: prices without strength: limits", t);
   if (!term->strength_is_limits) return AMBULO_OK;
-  if (term->kind != AMBULO_TORQUE_POWER)
+  if (!ambulo__term_has(term, AMBULO__TERM_CURVES))
     return REFUSE(list, "objective[%d]: strength is limits; expected torque_power", t);
   for (int i = 0; i < ambulo_model_coordinate_count(d->model); i++) {
     const ambulo_coordinate *c = ambulo_model_coordinate(d->model, i);

@@ -59,27 +59,13 @@ static int same(double a, double b) {
   return a == b || fabs(a - b) <= AMBULO__MIRROR_TOLERANCE * fmax(fabs(a), fabs(b));
 }
 
-static int is_by_coordinate(ambulo_term_kind kind) {
-  return kind != AMBULO_USER_TERM && kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE &&
-         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE && kind != AMBULO_DEVICE_EFFORT;
-}
-
-static int has_offset(ambulo_term_kind kind) {
-  return kind == AMBULO_TORQUE_SQUARED || kind == AMBULO_TORQUE_ABSOLUTE ||
-         kind == AMBULO_TORQUE_POWER || kind == AMBULO_POSTURE;
-}
-
-static int has_smoothing(ambulo_term_kind kind) {
-  return kind == AMBULO_TORQUE_ABSOLUTE || kind == AMBULO_TORQUE_POWER ||
-         kind == AMBULO_MECHANICAL_POWER;
-}
-
 static double scale_of(const share *s) {
   return ambulo__term_scale(s->term, s->coordinate);
 }
 
 static double offset_of(const share *s) {
-  return has_offset(s->term->kind) && s->term->offset ? s->term->offset[s->coordinate] : 0.0;
+  int has_offset = ambulo__term_has(s->term, AMBULO__TERM_OFFSET | AMBULO__TERM_REST);
+  return has_offset && s->term->offset ? s->term->offset[s->coordinate] : 0.0;
 }
 
 static double tendon_of(const share *s) {
@@ -88,14 +74,14 @@ static double tendon_of(const share *s) {
 
 static double passive_at(const share *s, double q) {
   double slope;
-  if (s->term->kind != AMBULO_TORQUE_POWER || !s->term->passive) return 0.0;
+  if (!ambulo__term_has(s->term, AMBULO__TERM_CURVES) || !s->term->passive) return 0.0;
   return ambulo__passive_torque(&s->term->passive[4 * s->coordinate], q, &slope);
 }
 
 /* direction 0: for positive torque */
 static double strength_at(const share *s, int direction, double q) {
   double slope;
-  if (s->term->kind != AMBULO_TORQUE_POWER || !s->term->strength) return 1.0;
+  if (!ambulo__term_has(s->term, AMBULO__TERM_CURVES) || !s->term->strength) return 1.0;
   const double *curve = &s->term->strength[6 * s->coordinate + 3 * direction];
   return curve[0] > 0.0 ? ambulo__strength(curve, q, &slope) : 1.0;
 }
@@ -120,7 +106,7 @@ static difference curves_of(const share *a, const share *b) {
 static difference compare(const share *a, const share *b) {
   double sign = a->sign * b->sign;
   double own = scale_of(a), other = scale_of(b);
-  int tracked = a->term->kind == AMBULO_TRACKING && a->term == b->term;
+  int tracked = ambulo__term_has(a->term, AMBULO__TERM_REFERENCE) && a->term == b->term;
   if ((own == 0.0 && other == 0.0) || (tracked && (own == 0.0 || other == 0.0)))
     return (difference){.what = NULL};
   if (!same(own, other)) return (difference){"scale", "", own, other, 0.0, 0, 0};
@@ -139,9 +125,12 @@ static int count_like(const ambulo_problem_definition *d, const share *a, share 
   for (int u = 0; u < d->term_count; u++) {
     b.term = &d->terms[u];
     if (b.term->kind != a->term->kind || !same(b.term->weight, a->term->weight)) continue;
-    if (has_smoothing(a->term->kind) && !same(b.term->smoothing, a->term->smoothing)) continue;
+    if (ambulo__term_has(a->term, AMBULO__TERM_SMOOTHING) &&
+        !same(b.term->smoothing, a->term->smoothing))
+      continue;
     if (ambulo__term_is_rate(b.term) != ambulo__term_is_rate(a->term)) continue;
-    if (a->term->kind == AMBULO_TORQUE_POWER && !same(b.term->power, a->term->power)) continue;
+    if (ambulo__term_has(a->term, AMBULO__TERM_POWER) && !same(b.term->power, a->term->power))
+      continue;
     count += compare(a, &b).what == NULL;
   }
   return count;
@@ -159,7 +148,7 @@ static const char *unit_of(const difference *e, const ambulo_term *term,
                            const ambulo_coordinate *c) {
   int angle = c->type == AMBULO_REVOLUTE;
   if (strcmp(e->what, "offset") != 0) return e->unit;
-  if (term->kind == AMBULO_POSTURE) return angle ? " rad" : " m";
+  if (ambulo__term_has(term, AMBULO__TERM_REST)) return angle ? " rad" : " m";
   return angle ? " N m" : " N";
 }
 
@@ -187,8 +176,10 @@ static ambulo_status refuse(const ambulo_problem_definition *d, int t, int i, co
                 e->other, unit, e->odd ? "the opposite" : "the same");
 }
 
-static ambulo_status check_coordinates(const ambulo_problem_definition *d, int t,
-                                       ambulo_diagnostics *list) {
+ambulo_status ambulo__mirror_coordinates(const ambulo_problem_definition *d,
+                                         const ambulo__segments *s, int t,
+                                         ambulo_diagnostics *list) {
+  (void)s;
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < d->model->coordinate_count; i++) {
     const ambulo_coordinate *c = &d->model->coordinates[i];
@@ -264,8 +255,9 @@ static int are_reflections(const ambulo__segments *s, const line *a, const line 
 static ambulo_status refuse_line(const ambulo_problem_definition *d, const ambulo__segments *s,
                                  int t, ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
-  const char *names[2], *expected = "expected a line in the mirror plane, or another upright term "
-                                    "of weight";
+  const char *name = ambulo__term_info_of(term->kind)->name;
+  const char *names[2];
+  char expected[120];
   line own = line_of(s, term);
   double direction[3], left[2];
   direction_of(&own, direction);
@@ -274,29 +266,30 @@ static ambulo_status refuse_line(const ambulo_problem_definition *d, const ambul
     names[end] = d->model->points[term->point[end]].name;
     left[end] = fabs(own.place[end][2]) < AMBULO__MIRROR_TOLERANCE ? 0.0 : own.place[end][2];
   }
+  (void)snprintf(expected, sizeof expected,
+                 "expected a line in the mirror plane, or another %s term of weight %g", name,
+                 term->weight);
   if (is_rigid(&own))
-    return REFUSE(
-        list,
-        "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; it moves "
-        "with '%s' and points %.6g to the left at q = 0; %s %g on the other side, with "
-        "mirrored ends",
-        t, names[0], names[1], mover_of(s, own.segment[0]), direction[2], expected, term->weight);
-  return REFUSE(
-      list,
-      "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; '%s' moves "
-      "with '%s' and is %.6g m to the left at q = 0, '%s' with '%s' %.6g m; %s %g on the "
-      "other side, with mirrored ends",
-      t, names[0], names[1], names[0], mover_of(s, own.segment[0]), left[0], names[1],
-      mover_of(s, own.segment[1]), left[1], expected, term->weight);
+    return REFUSE(list,
+                  "objective[%d] (%s): the line from '%s' to '%s' has no mirror image; it moves "
+                  "with '%s' and points %.6g to the left at q = 0; %s on the other side, with "
+                  "mirrored ends",
+                  t, name, names[0], names[1], mover_of(s, own.segment[0]), direction[2], expected);
+  return REFUSE(list,
+                "objective[%d] (%s): the line from '%s' to '%s' has no mirror image; '%s' moves "
+                "with '%s' and is %.6g m to the left at q = 0, '%s' with '%s' %.6g m; %s on the "
+                "other side, with mirrored ends",
+                t, name, names[0], names[1], names[0], mover_of(s, own.segment[0]), left[0],
+                names[1], mover_of(s, own.segment[1]), left[1], expected);
 }
 
-static ambulo_status check_line(const ambulo_problem_definition *d, const ambulo__segments *s,
-                                int t, ambulo_diagnostics *list) {
+ambulo_status ambulo__mirror_line(const ambulo_problem_definition *d, const ambulo__segments *s,
+                                  int t, ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
   line own = line_of(s, term);
   for (int u = 0; u < d->term_count; u++) {
     const ambulo_term *other = &d->terms[u];
-    if (other->kind != AMBULO_UPRIGHT || !same(other->weight, term->weight)) continue;
+    if (other->kind != term->kind || !same(other->weight, term->weight)) continue;
     line image = line_of(s, other);
     if (are_reflections(s, &own, &image, 0) || are_reflections(s, &own, &image, 1))
       return AMBULO_OK;
@@ -306,17 +299,20 @@ static ambulo_status check_line(const ambulo_problem_definition *d, const ambulo
 
 /* ---------------------------------------------------------------------- devices */
 
-static ambulo_status check_devices(const ambulo_problem_definition *d, int t,
-                                   ambulo_diagnostics *list) {
+ambulo_status ambulo__mirror_device_scales(const ambulo_problem_definition *d,
+                                           const ambulo__segments *s, int t,
+                                           ambulo_diagnostics *list) {
+  (void)s;
   const double *scale = d->terms[t].device_scale;
   for (int i = 0; scale && i < d->device_count; i++) {
     double sign;
     int partner = ambulo__device_partner(d, i, &sign);
     if (partner < 0 || same(scale[i], scale[partner])) continue;
     return REFUSE(list,
-                  "objective[%d] (device_effort): the scale of '%s' is %.6g, that of its mirror "
+                  "objective[%d] (%s): the scale of '%s' is %.6g, that of its mirror "
                   "image '%s' %.6g; expected the same with mirrored ends",
-                  t, d->devices[i].name, scale[i], d->devices[partner].name, scale[partner]);
+                  t, ambulo__term_info_of(d->terms[t].kind)->name, d->devices[i].name, scale[i],
+                  d->devices[partner].name, scale[partner]);
   }
   return AMBULO_OK;
 }
@@ -329,11 +325,9 @@ ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *d,
   ambulo_status status = ambulo__segments_create(d->model, allocator, &segments);
   if (status) return status;
   for (int t = 0; t < d->term_count; t++) {
-    if (d->terms[t].weight == 0.0) continue;
-    ambulo_status one = AMBULO_OK;
-    if (is_by_coordinate(d->terms[t].kind)) one = check_coordinates(d, t, list);
-    if (d->terms[t].kind == AMBULO_UPRIGHT) one = check_line(d, &segments, t, list);
-    if (d->terms[t].kind == AMBULO_DEVICE_EFFORT) one = check_devices(d, t, list);
+    const ambulo__term_info *info = ambulo__term_info_of(d->terms[t].kind);
+    if (d->terms[t].weight == 0.0 || !info->check_mirror) continue;
+    ambulo_status one = info->check_mirror(d, &segments, t, list);
     if (one) status = one;
   }
   ambulo__segments_free(&segments);

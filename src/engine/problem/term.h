@@ -15,8 +15,7 @@
  *
  * User terms are functions of a node of the caller's own (problem/user_term.h).
  *
- * Reading order: term.h, term.c, shapes.c, term_lanes.c; form.c and one composite term:
- * ground_force.c; strength.c with joint_curves.c.
+ * Reading order: term.h, term.c, term_kinds.c: its table last, one law before it.
  */
 #ifndef AMBULO_PROBLEM_TERM_H
 #define AMBULO_PROBLEM_TERM_H
@@ -36,12 +35,68 @@ ambulo__residual ambulo__absolute(double u, double smoothing);
 ambulo__residual ambulo__power_law(double u, double power, double smoothing, double least);
 double ambulo__power_least(double power, double smoothing);
 
-/* What the evaluation needs to know about a term. */
+/* ------------------------------------------------------------------- kinds */
+
+struct ambulo__term_context;
+struct ambulo__form;
+struct ambulo__segments;
+
+/* What a residual stands for: decides on its channel, its units and its size in another body.
+ * Kinds by coordinate have a residual, a scale and a mirror partner for each coordinate. */
+typedef enum ambulo__term_subject {
+  AMBULO__TERM_OF_OTHERS = 0, /* not by coordinate */
+  AMBULO__TERM_OF_TORQUE,
+  AMBULO__TERM_OF_TORQUE_RATE,
+  AMBULO__TERM_OF_POWER, /* by body mass */
+  AMBULO__TERM_OF_ACCELERATION,
+  AMBULO__TERM_OF_POSITION
+} ambulo__term_subject;
+
+typedef enum ambulo__term_shape {
+  AMBULO__TERM_SQUARED = 0,
+  AMBULO__TERM_ABSOLUTE,
+  AMBULO__TERM_POWER_LAW
+} ambulo__term_shape;
+
+/* Members of ambulo_term that a kind has besides kind, name and weight. */
+enum {
+  AMBULO__TERM_SCALE = 1,          /* scale; 1 for coordinates that are not named */
+  AMBULO__TERM_OFFSET = 1 << 1,    /* offset */
+  AMBULO__TERM_REST = 1 << 2,      /* offset and scale, of the coordinates that are named alone */
+  AMBULO__TERM_SMOOTHING = 1 << 3, /* smoothing */
+  AMBULO__TERM_POWER = 1 << 4,     /* power */
+  AMBULO__TERM_CURVES = 1 << 5,    /* passive, strength, strength_is_limits, price */
+  AMBULO__TERM_LINE = 1 << 6,      /* point */
+  AMBULO__TERM_HEIGHT = 1 << 7,    /* height */
+  AMBULO__TERM_DEVICES = 1 << 8,   /* device_scale */
+  AMBULO__TERM_REFERENCE = 1 << 9, /* reference */
+  AMBULO__TERM_TENDON = 1 << 10,   /* tendon */
+  AMBULO__TERM_CALLBACK = 1 << 11  /* function, user: not in files */
+};
+
+/* A kind of term: all that readers, checks, evaluation and the solver ask about it. */
 typedef struct ambulo__term_info {
-  const char *name; /* as written in problem files */
-  int uses_tau, uses_qdd, uses_q;
+  const char *name; /* in problem files and reports */
+  ambulo__term_subject subject;
+  ambulo__term_shape shape;
+  int members;             /* AMBULO__TERM_SCALE | ... */
+  double smoothing, power; /* usual ones; 0: 1 and 2 */
+  int is_rate;             /* residuals are those of intervals, not of nodes */
+  int weight_is_length; /* the weight is as large as the body is long (definitions/body_size.c) */
+  /* Of composite kinds: how many residuals there are at a node, and one of them. */
+  int (*forms)(const struct ambulo__term_context *context);
+  void (*form)(const ambulo_term *term, const struct ambulo__term_context *context, int node, int j,
+               struct ambulo__form *form);
+  /* With mirrored ends: refuses what the two sides are asked unlike; NULL: nothing can be. */
+  ambulo_status (*check_mirror)(const ambulo_problem_definition *definition,
+                                const struct ambulo__segments *segments, int term,
+                                ambulo_diagnostics *diagnostics);
+  const char *(*lacks)(
+      const ambulo_problem_definition *definition); /* what it needs; NULL: nothing */
 } ambulo__term_info;
 const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind); /* NULL if unknown */
+/* 1 if the kind of a term has the member. */
+int ambulo__term_has(const ambulo_term *term, int member);
 
 /* ------------------------------------------------------------ simple terms */
 
@@ -57,7 +112,7 @@ ambulo__residual ambulo__term_residual(const ambulo_term *term, double u);
 ambulo__residual ambulo__term_residual_from(const ambulo_term *term, double least, double u);
 double ambulo__term_least(const ambulo_term *term);
 
-/* Simple terms at a whole block (term_lanes.c). Residuals u[8] on coordinate i from the channel
+/* Simple terms at a whole block. Residuals u[8] on coordinate i from the channel
  * y[8] of the nodes from `node` on; beyond the last of `nodes` whatever the padding gives
  * (tracking: 0), which the caller weighs with zero. */
 void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int nodes, int i,
@@ -101,40 +156,19 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *cont
 void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                        int j, ambulo__form *form);
 
-/* The pieces, one file each. */
-void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_context *context,
-                                   int node, int i, ambulo__form *form);
 /* the length of upright lines, m: the distance of two points at q = 0 */
 double ambulo__upright_length(const ambulo_model *model, const int point[2]);
-void ambulo__upright_form(const ambulo_term *term, const ambulo__term_context *context, int node,
-                          int j, ambulo__form *form);
-void ambulo__ground_force_form(const ambulo__term_context *context, int node, int axis,
-                               ambulo__form *form);
-int ambulo__clearance_forms(const ambulo__term_context *context);
 /* The part of a node's time that a foot is in the air: of the half intervals before and after. */
 double ambulo__air_part(const ambulo__term_context *context, int node, int foot);
 /* Whose height residual j of the clearance term is. */
 int ambulo__clearance_foot(int j);
-void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_context *context, int node,
-                            int j, ambulo__form *form);
-void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_context *context,
-                              int node, int i, ambulo__form *form);
-void ambulo__strength_form(const ambulo_term *term, const ambulo__term_context *context, int node,
-                           int i, ambulo__form *form);
-
-int ambulo__device_effort_forms(const ambulo__term_context *context);
-void ambulo__device_effort_form(const ambulo_term *term, const ambulo__term_context *context,
-                                int node, int i, ambulo__form *form);
-int ambulo__force_rate_forms(const ambulo__term_context *context, int node);
-void ambulo__force_rate_form(const ambulo__term_context *context, int node, int j,
-                             ambulo__form *form);
 
 /* Value of a channel at a node; adds a channel with a slope to a form. A form that is full has no
  * value any more, u is NaN: a term that outgrows it fails loudly. */
 double ambulo__frame_value(const ambulo__term_context *context, int node, int channel);
 void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope);
 
-/* Passive torque b1 exp(k1 q) + b2 exp(k2 q) and its derivative (joint_curves.c). */
+/* Passive torque b1 exp(k1 q) + b2 exp(k2 q) and its derivative. */
 double ambulo__passive_torque(const double curve[4], double q, double *derivative);
 /* Isometric strength peak cos(c2 (q - c3)), kept above a tenth of the peak. */
 double ambulo__strength(const double curve[3], double q, double *derivative);

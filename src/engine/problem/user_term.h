@@ -10,7 +10,7 @@
 #include "problem/nlp.h"
 
 static inline int ambulo__is_user_term(const ambulo_term *term) {
-  return term->kind == AMBULO_USER_TERM || term->kind == AMBULO_USER_SQUARE;
+  return ambulo__term_has(term, AMBULO__TERM_CALLBACK);
 }
 
 /* phi at a node of the point held. */

@@ -209,99 +209,67 @@ static double *read_device_scale(ambulo__problem_reader *reader, const ambulo__y
   return scale;
 }
 
-static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+/* what the kind of a term has besides weight and scale */
+static void read_members(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo_term *term) {
-  switch (term->kind) {
-  case AMBULO_TORQUE_POWER:
+  int has = ambulo__term_info_of(term->kind)->members;
+  if (has & AMBULO__TERM_SMOOTHING)
+    term->smoothing =
+        ambulo__yaml_number_in(ambulo__yaml_get(node, "smoothing"), 1e-9, 1e9, term->smoothing);
+  if (has & AMBULO__TERM_POWER)
     term->power = ambulo__yaml_number_in(ambulo__yaml_get(node, "power"), 2.0, 8.0, term->power);
+  if (has & AMBULO__TERM_CURVES) {
     term->passive = read_curves(reader, ambulo__yaml_get(node, "passive"), 4);
     read_strength(reader, ambulo__yaml_get(node, "strength"), ambulo__yaml_get(node, "scale"),
                   term);
-    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
-    break;
-  case AMBULO_TORQUE_SQUARED:
-  case AMBULO_TORQUE_ABSOLUTE:
-    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
-    break;
-  case AMBULO_POSTURE:
-    term->offset = read_posture(reader, ambulo__yaml_get(node, "angles"));
-    break;
-  case AMBULO_UPRIGHT:
-    read_line(reader, ambulo__yaml_require(node, "points"), term);
-    break;
-  case AMBULO_ACCELERATION:
-  case AMBULO_TRACKING:
-  case AMBULO_USER_TERM:
-  case AMBULO_USER_SQUARE:
-  case AMBULO_TORQUE_RATE:
-  case AMBULO_GROUND_FORCE:
-  case AMBULO_TERM_KIND_NOT_SET:
-    break;
-  case AMBULO_MECHANICAL_POWER:
-    term->tendon = read_tendon(reader, ambulo__yaml_get(node, "tendon"));
-    break;
-  case AMBULO_DEVICE_EFFORT:
-    term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
-    break;
-  case AMBULO_FORCE_RATE:
-    if (reader->definition.ground_reaction.kind == AMBULO_REACTION_NONE)
-      (void)ambulo__yaml_error(ambulo__yaml_get(node, "term"), AMBULO_E_PROBLEM, NULL,
-                               "force_rate without ground_reaction: no forces on feet; expected "
-                               "ground_reaction: {kind: shared} or {kind: two_step}");
-    break;
-  case AMBULO_CLEARANCE:
-    term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
-    break;
   }
+  if (has & AMBULO__TERM_OFFSET)
+    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+  if (has & AMBULO__TERM_REST)
+    term->offset = read_posture(reader, ambulo__yaml_get(node, "angles"));
+  if (has & AMBULO__TERM_LINE) read_line(reader, ambulo__yaml_require(node, "points"), term);
+  if (has & AMBULO__TERM_TENDON)
+    term->tendon = read_tendon(reader, ambulo__yaml_get(node, "tendon"));
+  if (has & AMBULO__TERM_DEVICES)
+    term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
+  if (has & AMBULO__TERM_HEIGHT)
+    term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
 }
 
-static int has_smoothing(ambulo_term_kind kind) {
-  return kind == AMBULO_TORQUE_ABSOLUTE || kind == AMBULO_TORQUE_POWER ||
-         kind == AMBULO_MECHANICAL_POWER;
-}
-
-static int has_scale(ambulo_term_kind kind) {
-  return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE &&
-         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE && kind != AMBULO_DEVICE_EFFORT;
-}
-
-/* 0: there is none, which was said */
-static int read_kind(const ambulo__yaml_node *node, ambulo_term_kind *kind) {
-  static const char *const words[] = {
-      "torque_squared", "torque_absolute",  "acceleration", "tracking", "torque_power",
-      "torque_rate",    "mechanical_power", "posture",      "upright",  "ground_force",
-      "clearance",      "force_rate",       "device_effort"};
-  static const ambulo_term_kind kinds[] = {
-      AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
-      AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
-      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,        AMBULO_FORCE_RATE,
-      AMBULO_DEVICE_EFFORT};
-  int choice = ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), -1);
-  if (choice >= 0) *kind = kinds[choice];
-  return choice >= 0;
+/* NOT_SET: there is none, which was said */
+static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
+  enum { MOST_KINDS = 64 };
+  const char *words[MOST_KINDS];
+  ambulo_term_kind kinds[MOST_KINDS];
+  const ambulo__term_info *info;
+  int count = 0;
+  for (int k = 1; (info = ambulo__term_info_of((ambulo_term_kind)k)) && count < MOST_KINDS; k++) {
+    if (info->members & AMBULO__TERM_CALLBACK) continue; /* of programs alone */
+    kinds[count] = (ambulo_term_kind)k;
+    words[count++] = info->name;
+  }
+  int choice = ambulo__yaml_choice(node, words, count, -1);
+  return choice < 0 ? AMBULO_TERM_KIND_NOT_SET : kinds[choice];
 }
 
 static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                       ambulo_term *term) {
-  ambulo_term_kind kind = AMBULO_TORQUE_SQUARED;
-  int known = read_kind(ambulo__yaml_require(node, "term"), &kind);
-  *term = ambulo_term_default(kind);
-  if (!known) return; /* which keys it has is not known either */
+  ambulo_term_kind kind = read_kind(ambulo__yaml_require(node, "term"));
+  *term = ambulo_term_default(kind ? kind : AMBULO_TORQUE_SQUARED);
+  if (!kind) return; /* which keys it has is not known either */
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
   if (name) term->name = ambulo__yaml_name(name);
   term->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e12, 1.0);
   double *scale = NULL;
-  int priced = term->kind == AMBULO_TORQUE_POWER &&
+  int priced = ambulo__term_has(term, AMBULO__TERM_CURVES) &&
                ambulo__yaml_is(ambulo__yaml_get(node, "strength"), AMBULO__YAML_SCALAR);
-  if (has_scale(term->kind)) scale = read_scale(reader, ambulo__yaml_get(node, "scale"), priced);
-  if (term->kind == AMBULO_POSTURE)
+  if (ambulo__term_has(term, AMBULO__TERM_SCALE))
+    scale = read_scale(reader, ambulo__yaml_get(node, "scale"), priced);
+  if (ambulo__term_has(term, AMBULO__TERM_REST))
     scale = read_posture_scale(reader, ambulo__yaml_require(node, "scale"));
   term->scale = scale;
-  if (has_smoothing(term->kind))
-    term->smoothing =
-        ambulo__yaml_number_in(ambulo__yaml_get(node, "smoothing"), 1e-9, 1e9, term->smoothing);
-  read_details(reader, node, term);
-  if (term->kind == AMBULO_TRACKING && scale) {
+  read_members(reader, node, term);
+  if (ambulo__term_has(term, AMBULO__TERM_REFERENCE) && scale) {
     const ambulo__yaml_node *reference = ambulo__yaml_require(node, "reference");
     if (reference) term->reference = ambulo__read_tracked_motion(reader, reference, scale);
   }

@@ -22,6 +22,7 @@
  * Integrals over time come out sqrt(longer) times as large, all alike.
  */
 #include "definitions/problem_reader.h"
+#include "problem/term.h"
 
 #include <math.h>
 
@@ -79,31 +80,20 @@ typedef struct factors {
 } factors;
 
 static factors factors_of(const ambulo_term *term, int turns, double longer, double heavier) {
-  double force = turns ? heavier * longer : heavier;
-  int is_price = term->strength_is_limits;
-  switch (term->kind) {
-  case AMBULO_TORQUE_POWER:
-    return (factors){is_price || term->strength ? 1.0 : 1.0 / force, force};
-  case AMBULO_TORQUE_SQUARED:
-  case AMBULO_TORQUE_ABSOLUTE:
-    return (factors){1.0 / force, force};
-  case AMBULO_TORQUE_RATE:
+  double force = turns ? heavier * longer : heavier, place = turns ? 1.0 : longer;
+  int is_price = term->strength_is_limits || term->strength;
+  switch (ambulo__term_info_of(term->kind)->subject) {
+  case AMBULO__TERM_OF_TORQUE:
+    return (factors){is_price ? 1.0 : 1.0 / force, force};
+  case AMBULO__TERM_OF_TORQUE_RATE:
     return (factors){sqrt(longer) / force, 1.0};
-  case AMBULO_ACCELERATION:
-    return (factors){turns ? longer : 1.0, 1.0};
-  case AMBULO_MECHANICAL_POWER:
+  case AMBULO__TERM_OF_POWER:
     return (factors){1.0 / sqrt(longer), 1.0};
-  case AMBULO_TRACKING:
-  case AMBULO_POSTURE:
-    return (factors){turns ? 1.0 : 1.0 / longer, turns ? 1.0 : longer};
-  case AMBULO_TERM_KIND_NOT_SET:
-  case AMBULO_USER_TERM:
-  case AMBULO_USER_SQUARE:
-  case AMBULO_UPRIGHT:
-  case AMBULO_GROUND_FORCE:
-  case AMBULO_CLEARANCE:
-  case AMBULO_FORCE_RATE:
-  case AMBULO_DEVICE_EFFORT: /* a device is what it is, whoever wears it */
+  case AMBULO__TERM_OF_ACCELERATION:
+    return (factors){turns ? longer : 1.0, 1.0};
+  case AMBULO__TERM_OF_POSITION:
+    return (factors){1.0 / place, place};
+  case AMBULO__TERM_OF_OTHERS: /* a device is what it is, whoever wears it */
     break;
   }
   return (factors){1.0, 1.0};
@@ -148,8 +138,8 @@ static void scale_term(ambulo__problem_reader *reader, ambulo_term *term) {
   term->passive = scaled_peaks(reader, term->passive, 2 * count, 2, heavier * longer);
   term->strength = scaled_peaks(reader, term->strength, 2 * count, 3, heavier * longer);
   term->tendon = scaled_tendons(reader, term->tendon);
-  if (term->kind == AMBULO_FORCE_RATE) term->weight *= longer;
-  if (term->kind == AMBULO_CLEARANCE) term->height *= longer;
+  if (ambulo__term_info_of(term->kind)->weight_is_length) term->weight *= longer;
+  if (ambulo__term_has(term, AMBULO__TERM_HEIGHT)) term->height *= longer;
 }
 
 void ambulo__scale_to_subject(ambulo__problem_reader *reader) {
