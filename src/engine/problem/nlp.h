@@ -18,50 +18,33 @@
 #include "contact/holds.h"
 #include "contact/collision.h"
 #include "contact/foot_outline.h"
-#include "contact/gait.h"
+#include "contact/gait_rule.h"
 #include "mechanics/plan.h"
 #include "problem/row_runs.h"
 #include "problem/term.h"
 #include "trajectory/basis.h"
 #include "trajectory/lane_map.h"
 
-#define AMBULO__COMFORTABLE_NUMBER 0.31 /* v / sqrt(g H): 1.28 m/s for 1.75 m */
-enum { AMBULO__PHASES = 4 };            /* heel_strike, foot_flat, heel_off, toe_off of a gait */
-typedef enum ambulo__phase_kind {
-  AMBULO__PHASE_SHARE,    /* of the stride, at any speed */
-  AMBULO__PHASE_FUNCTION, /* of the speed, as the file has it */
-  AMBULO__PHASE_OF_PEOPLE /* of the speed, the program's own */
-} ambulo__phase_kind;
-
 /* Which keys the problem's file has, for advice in its words; all 0: the problem was made from C.
  */
 typedef struct ambulo__problem_keys {
-  int file;            /* it was read from a file */
-  int terms;           /* of the objective that the file has */
-  int gait;            /* the contacts come from `gait` */
-  int steps;           /* of the gait */
-  int unlike_steps;    /* two step lengths or times that differ */
-  int speed;           /* gait.speed is there: with it the step length decides on the duration */
-  int travel;          /* ends.travel is there */
-  int length;          /* gait.step_length is there */
-  int lengths;         /* as a list */
-  int length_function; /* as a function of the speed number */
-  double length_constant, length_slope; /* of it: at the comfortable number; by it, m */
-  int step_time;                        /* gait.step_time is there, one number */
-  int times;                            /* as a list */
-  int duration;                         /* time.duration is there */
-  int loads;                            /* `load` is a list, and which items of it are on links */
+  int file;         /* it was read from a file */
+  int terms;        /* of the objective that the file has */
+  int gait;         /* the contacts come from `gait` */
+  int steps;        /* of the gait */
+  int unlike_steps; /* two step lengths or times that differ */
+  int speed;        /* gait.speed is there: with it the step length decides on the duration */
+  int travel;       /* ends.travel is there */
+  int lengths;      /* gait.step_length is a list */
+  int loads;        /* `load` is a list, and which items of it are on links */
   int load_item[AMBULO__MOST_LOADS], hold_item[AMBULO__MOST_LOADS]; /* and in hands */
-  ambulo_gait walk; /* what the keys of the gait come to */
-  ambulo__phase_kind by_speed[AMBULO__PHASES];
-  double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
-  double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */
-  double speed_unit;                  /* sqrt(g H), m/s */
-  double radians;                     /* per unit of `angles`; 0: not stated */
-  int written_for;                    /* numbers of the file are those of another body
-                                       * (definitions/problem_written_for.c)
-                                       */
-  double longer, heavier;             /* than that body: ratios of statures and masses; 1 without */
+  ambulo__gait_rule rule; /* what the keys of the gait say */
+  ambulo_gait walk;       /* and what they come to */
+  double radians;         /* per unit of `angles`; 0: not stated */
+  int written_for;        /* numbers of the file are those of another body
+                           * (definitions/problem_written_for.c)
+                           */
+  double longer, heavier; /* than that body: ratios of statures and masses; 1 without */
 } ambulo__problem_keys;
 
 struct ambulo__free_section;

@@ -89,10 +89,10 @@ double ambulo__phases_by_speed(const ambulo__parameters *p) {
   const stride s = stride_of(p);
   double sum = 0.0;
   for (int phase = 0; phase < PHASES; phase++) {
-    if (!keys->by_speed[phase] || keys->phase_slope[phase] == 0.0) continue;
-    sum += stays(p) ? (double)NAN : pull_of(&s, phase) * keys->phase_slope[phase];
+    if (!keys->rule.phase_kind[phase] || keys->rule.phase_slope[phase] == 0.0) continue;
+    sum += stays(p) ? (double)NAN : pull_of(&s, phase) * keys->rule.phase_slope[phase];
   }
-  return sum == 0.0 ? 0.0 : sum / keys->speed_unit;
+  return sum == 0.0 ? 0.0 : sum / ambulo__speed_unit(p->problem->model);
 }
 
 /* (S.14) S sum dL/de */
@@ -102,12 +102,16 @@ static void add_phases(ambulo__parameters *p) {
   const ambulo__problem_keys *of = &p->problem->keys;
   const stride s = stride_of(p);
   for (int phase = 0; phase < PHASES; phase++) {
-    double pull = pull_of(&s, phase), beyond = of->speed_number - AMBULO__COMFORTABLE_NUMBER;
-    if (!isfinite(pull) || of->by_speed[phase] == AMBULO__PHASE_OF_PEOPLE) continue;
-    double value = s.phase[phase] - of->phase_slope[phase] * beyond;
-    ambulo__parameter_add(p, AMBULO__STRIDE_SHARE, of->by_speed[phase] ? value : s.phase[phase],
-                          pull, words[phase], "gait.phases.%s%s", keys[phase],
-                          of->by_speed[phase] ? ".comfortable" : "");
+    double pull = pull_of(&s, phase),
+           beyond =
+               ambulo__speed_number(p->problem->model, ambulo__gait_speed(&p->problem->keys.walk)) -
+               AMBULO__COMFORTABLE_NUMBER;
+    if (!isfinite(pull) || of->rule.phase_kind[phase] == AMBULO__PHASE_OF_PEOPLE) continue;
+    double value = s.phase[phase] - of->rule.phase_slope[phase] * beyond;
+    ambulo__parameter_add(p, AMBULO__STRIDE_SHARE,
+                          of->rule.phase_kind[phase] ? value : s.phase[phase], pull, words[phase],
+                          "gait.phases.%s%s", keys[phase],
+                          of->rule.phase_kind[phase] ? ".comfortable" : "");
   }
 }
 

@@ -84,13 +84,18 @@ static int moves_with_duration(const ambulo_problem *problem) {
   int follows = d->user_row_count > 0 || d->breakpoints || d->node_times || d->tube_count > 0 ||
                 has_times(d, problem->before != NULL);
   for (int t = 0; t < d->term_count; t++) follows |= d->terms[t].function || d->terms[t].reference;
-  if (d->contact_count > 0) follows |= !problem->keys.gait || problem->keys.times;
+  if (d->contact_count > 0)
+    follows |= !problem->keys.gait || (problem->keys.rule.time_kind == AMBULO__TIME_GIVEN &&
+                                       !isnan(problem->keys.rule.time[1]));
   return !follows;
 }
 
 /* step length = speed * step time: neither key of time moves alone */
 static int length_follows(const ambulo__problem_keys *keys) {
-  return keys->speed && !keys->length && (keys->duration || keys->step_time || keys->times);
+  return keys->speed && !(keys->rule.length_kind == AMBULO__LENGTH_GIVEN) &&
+         ((keys->rule.time_kind == AMBULO__TIME_OF_DURATION) ||
+          (keys->rule.time_kind == AMBULO__TIME_GIVEN && isnan(keys->rule.time[1])) ||
+          (keys->rule.time_kind == AMBULO__TIME_GIVEN && !isnan(keys->rule.time[1])));
 }
 
 /* df*_dp with what phases by speed bring; NaN: there is none. `longer` dT/dp, `further` dx/dp */
@@ -108,7 +113,7 @@ static void add_time(ambulo__parameters *p, double by_length) {
   const ambulo_gait *gait = &keys->walk;
   double duration = p->problem->definition.duration, steps = gait->steps;
   double speed = length_follows(keys) ? ambulo__gait_place(gait, gait->steps) / duration : 0.0;
-  int in_steps = keys->gait && !keys->duration;
+  int in_steps = keys->gait && !(keys->rule.time_kind == AMBULO__TIME_OF_DURATION);
   double by = p->partials->duration + (speed > 0.0 ? by_length * speed / steps : 0.0);
   by = with_phases(p, by, 1.0, speed);
   if (!isfinite(by)) return;
@@ -129,9 +134,11 @@ static void add_speed(ambulo__parameters *p, double by_length) {
   if (length_follows(keys)) {
     length = duration / steps;
   } else {
-    length = keys->length            ? 0.0
-             : keys->length_function ? keys->length_slope / keys->speed_unit
-                                     : gait->step_length / (2.0 * speed);
+    length = (keys->rule.length_kind == AMBULO__LENGTH_GIVEN) ? 0.0
+             : (keys->rule.length_kind == AMBULO__LENGTH_FUNCTION)
+                 ? (keys->rule.length_slope * ambulo_model_stature(p->problem->model)) /
+                       ambulo__speed_unit(p->problem->model)
+                 : gait->step_length / (2.0 * speed);
     by = p->partials->duration * (steps * length - duration) / speed;
   }
   by += length * by_length + ambulo__phases_by_speed(p);
@@ -144,7 +151,8 @@ static void add_speed(ambulo__parameters *p, double by_length) {
 static void add_times(ambulo__parameters *p, double by_length) {
   const ambulo__problem_keys *keys = &p->problem->keys;
   int moves = moves_with_duration(p->problem);
-  int by_time = !keys->gait || keys->duration || keys->step_time;
+  int by_time = !keys->gait || (keys->rule.time_kind == AMBULO__TIME_OF_DURATION) ||
+                (keys->rule.time_kind == AMBULO__TIME_GIVEN && isnan(keys->rule.time[1]));
   if (moves && by_time) add_time(p, by_length);
   if (length_follows(keys) || (moves && !by_time)) add_speed(p, by_length);
 }
@@ -153,11 +161,13 @@ static void add_times(ambulo__parameters *p, double by_length) {
 static void add_length_function(ambulo__parameters *p, double by) {
   const ambulo__problem_keys *keys = &p->problem->keys;
   double stature = ambulo_model_stature(p->problem->model), steps = keys->walk.steps;
-  double beyond = keys->speed_number - AMBULO__COMFORTABLE_NUMBER;
-  ambulo__parameter_add(p, AMBULO__RATIO, keys->length_constant, stature * by,
+  double beyond =
+      ambulo__speed_number(p->problem->model, ambulo__gait_speed(&p->problem->keys.walk)) -
+      AMBULO__COMFORTABLE_NUMBER;
+  ambulo__parameter_add(p, AMBULO__RATIO, keys->rule.length_comfortable, stature * by,
                         "step length at a comfortable speed", "gait.step_length.comfortable");
   ambulo__parameter_travels(p, steps * stature);
-  ambulo__parameter_add(p, AMBULO__RATIO, keys->length_slope / stature, stature * beyond * by,
+  ambulo__parameter_add(p, AMBULO__RATIO, keys->rule.length_slope, stature * beyond * by,
                         "step length by speed", "gait.step_length.slope");
   ambulo__parameter_travels(p, steps * stature * beyond);
 }
@@ -165,8 +175,11 @@ static void add_length_function(ambulo__parameters *p, double by) {
 static void add_lengths(ambulo__parameters *p, const double by[2]) {
   const ambulo__problem_keys *keys = &p->problem->keys;
   const ambulo_gait *gait = &keys->walk;
-  int follows_speed = keys->speed && !keys->duration && !keys->step_time && !keys->times;
-  if ((!keys->length && !keys->length_function) ||
+  int follows_speed = keys->speed && !(keys->rule.time_kind == AMBULO__TIME_OF_DURATION) &&
+                      !(keys->rule.time_kind == AMBULO__TIME_GIVEN && isnan(keys->rule.time[1])) &&
+                      !(keys->rule.time_kind == AMBULO__TIME_GIVEN && !isnan(keys->rule.time[1]));
+  if ((!(keys->rule.length_kind == AMBULO__LENGTH_GIVEN) &&
+       !(keys->rule.length_kind == AMBULO__LENGTH_FUNCTION)) ||
       (follows_speed && !moves_with_duration(p->problem)))
     return;
   double slower = 0.0, count[2];
@@ -176,7 +189,7 @@ static void add_lengths(ambulo__parameters *p, const double by[2]) {
   count_steps(gait->steps, count);
   double faster = with_phases(p, 0.0, 0.0, follows_speed ? 0.0 : 1.0); /* of 1 m of the walk */
   if (!isfinite(faster)) return;
-  if (keys->length_function) {
+  if ((keys->rule.length_kind == AMBULO__LENGTH_FUNCTION)) {
     add_length_function(p, by[0] + by[1] + (slower + faster) * gait->steps);
     return;
   }

@@ -68,17 +68,12 @@ double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambul
 void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `gait:` or `contacts:`; after the time, which it may complete. */
 void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
-/* `gait.phases`: heel_strike, foot_flat, heel_off, toe_off of a walk at `speed`, m/s, and in
- * reader->keys how they go with it. 0 after an error. */
-int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
-                        double value[AMBULO__PHASES]);
-/* A step length {comfortable, slope}, m, at `speed` (NaN: the file has none), and in reader->keys
- * how it goes with it. 1 after an error. */
-double ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                                double speed);
-/* The speed number of a walk at `speed`, m/s, in reader->keys; none without stature or gravity. A
- * speed that could not be read is a comfortable one. */
-void ambulo__read_speed_number(ambulo__problem_reader *reader, double speed);
+/* `gait.phases`, into the rule of the gait; and what is wrong with the walk that follows. */
+void ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
+void ambulo__check_phases(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          const ambulo_gait *gait);
+/* A step length {comfortable, slope}, into the rule, whose speed is known. */
+void ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `written_for`, before all that it scales; and what it scales, once all is read. */
 void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root);

@@ -2,19 +2,14 @@
  *
  * Duration, number of steps, step time and speed say the same thing twice:
  *     step_time = step_length / speed,   duration = steps * step_time
- * What is missing is computed; what is given must agree. A speed and a time make the length: so a
- * cadence is varied at a given speed. Of a speed alone follow both: people keep
- * the walk ratio of step length and cadence when they walk slower or faster (Sekiya et al. 1996;
- * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute at
- * H = 1.75 m, and as H^1.5, so that bodies of one speed number v / sqrt(g H) make alike steps:
- *     v = L C / 60,   L = W C      =>      L = sqrt(60 v W)
- * Two unlike steps: lists of two lengths, of two times.
+ * What is missing follows (contact/gait_rule.h); what is given must agree. A speed and a time make
+ * the length: so a cadence is varied at a given speed. Of a speed alone follow both. Two unlike
+ * steps: lists of two lengths, of two times.
  */
 #include "definitions/problem_reader.h"
 
 #include "contact/contact_frame.h"
 #include "contact/gait.h"
-#include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -143,20 +138,6 @@ static void read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_nod
 
 /* ----------------------------------------------------------------------- gait */
 
-/* distance of the heel centres along left at q = 0, m */
-static double neutral_width(const ambulo_model *model) {
-  if (ambulo_model_foot_count(model) != 2) return 0.0;
-  double width = 0.0;
-  for (int foot = 0; foot < 2; foot++) {
-    double r[3];
-    ambulo__neutral_point(model, model->feet[foot].heel_center, r);
-    for (int axis = 0; axis < 3; axis++) {
-      width += (foot ? -1.0 : 1.0) * model->left[axis] * r[axis];
-    }
-  }
-  return fabs(width);
-}
-
 static void check_agreement(const ambulo__yaml_node *node, const char *what, double step_time,
                             double other) {
   char hint[96];
@@ -168,81 +149,82 @@ static void check_agreement(const ambulo__yaml_node *node, const char *what, dou
                            what, step_time, other);
 }
 
-/* speed and time of a walk as the file has them, each read once; NaN: not there, or no number */
-typedef struct walking_pace {
-  double speed;    /* m/s */
-  double times[2]; /* s: of odd and of even steps */
-} walking_pace;
-
 static int is_list(const ambulo__yaml_node *node) {
   return ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE);
-}
-
-static walking_pace read_pace(const ambulo__yaml_node *section) {
-  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
-  walking_pace p = {ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, NAN),
-                    {NAN, NAN}};
-  if (is_list(time)) {
-    (void)ambulo__yaml_numbers(time, 2, p.times);
-  } else {
-    p.times[0] = p.times[1] = ambulo__yaml_number_in(time, 1e-3, 1e3, NAN);
-  }
-  return p;
-}
-
-static double step_time_at(const ambulo_gait *gait, double speed) {
-  return ambulo__gait_place(gait, gait->steps) / (speed * (double)gait->steps);
 }
 
 static double mean_step_time(const ambulo_gait *gait) {
   return ambulo__gait_strike(gait, gait->steps) / (double)gait->steps;
 }
 
-static double read_step_time(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                             const walking_pace *pace, const ambulo_gait *gait) {
+/* two times, within the bounds of one */
+static void read_two_times(const ambulo__yaml_node *node, double times[2]) {
+  (void)ambulo__yaml_numbers(node, 2, times);
+  if (isnan(times[0]) || isnan(times[1])) return;
+  if (times[0] >= 1e-3 && times[1] >= 1e-3 && times[0] <= 1e3 && times[1] <= 1e3) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                           "step times %g s and %g s; expected 0.001 to 1000 s", times[0],
+                           times[1]);
+}
+
+/* what decides on the times: those of the steps, the duration, or speed and length */
+static void read_times(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
   const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
   const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
-  double by_time = pace->times[0], by_speed = step_time_at(gait, pace->speed);
-  double by_duration = reader->definition.duration / (double)gait->steps;
-  if (reader->has_duration) {
-    check_agreement(time, "step_time", by_time, by_duration);
-    check_agreement(speed, "speed", by_speed, by_duration);
-    return by_duration;
-  }
-  if (!time && !speed) {
-    (void)ambulo__yaml_error(section, AMBULO_E_SCHEMA, NULL,
-                             "no step time; expected one of gait.step_time, gait.speed, "
-                             "time.duration");
-    return 1.0;
-  }
-  if (time) check_agreement(speed, "speed", by_speed, by_time);
-  return time ? by_time : by_speed;
+  rule->speed = ambulo__yaml_number_in(speed, 1e-3, 100.0, NAN);
+  rule->duration = reader->definition.duration;
+  rule->time[0] = rule->time[1] = NAN;
+  if (is_list(time))
+    read_two_times(time, rule->time);
+  else
+    rule->time[0] = ambulo__yaml_number_in(time, 1e-3, 1e3, NAN);
+  rule->time_kind = is_list(time)          ? AMBULO__TIME_GIVEN
+                    : reader->has_duration ? AMBULO__TIME_OF_DURATION
+                    : time                 ? AMBULO__TIME_GIVEN
+                                           : AMBULO__TIME_OF_SPEED;
+  if (time || speed || reader->has_duration) return;
+  (void)ambulo__yaml_error(section, AMBULO_E_SCHEMA, NULL,
+                           "no step time; expected one of gait.step_time, gait.speed, "
+                           "time.duration");
 }
 
-static int phases_are_in_order(const ambulo_gait *gait) {
-  return gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
-         gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
+/* one length, two, a function of the speed, that of the speed and a time, or that which people
+ * choose at the speed */
+static void read_lengths(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
+  int has_speed = ambulo__yaml_get(section, "speed") != NULL;
+  rule->length[1] = NAN;
+  if (is_list(node)) {
+    double lengths[2] = {0.0, 0.0};
+    (void)ambulo__yaml_numbers(node, 2, lengths);
+    rule->length[0] = lengths[0];
+    if (lengths[1] != 0.0) rule->length[1] = lengths[1];
+  } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    ambulo__read_step_length(reader, node);
+  } else if (!node && has_speed && rule->time_kind != AMBULO__TIME_OF_SPEED) {
+    rule->length_kind = AMBULO__LENGTH_OF_TIME;
+  } else if (!node && has_speed && ambulo_model_stature(reader->model) > 0.0) {
+    rule->length_kind = AMBULO__LENGTH_OF_PEOPLE;
+  } else {
+    rule->length[0] =
+        ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
+  }
 }
 
-static void read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                        ambulo_gait *gait) {
-  const ambulo__yaml_node *node = ambulo__yaml_get(section, "phases");
-  double speed = ambulo__gait_place(gait, gait->steps) / ambulo__gait_strike(gait, gait->steps);
-  double *const phase[AMBULO__PHASES] = {&gait->heel_strike, &gait->foot_flat, &gait->heel_off,
-                                         &gait->toe_off};
-  double value[AMBULO__PHASES];
-  if (!ambulo__read_phases(reader, node, speed, value)) return;
-  for (int i = 0; i < AMBULO__PHASES; i++) *phase[i] = value[i];
-  if (!node || phases_are_in_order(gait)) return;
-  int moves = 0;
-  for (int i = 0; i < AMBULO__PHASES; i++) moves |= reader->keys.by_speed[i] != AMBULO__PHASE_SHARE;
-  char hint[80];
-  (void)snprintf(hint, sizeof hint, "phases go with the speed, here %.4g sqrt(g H)",
-                 reader->keys.speed_number);
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, moves ? hint : NULL,
-                           "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
-                           "foot_flat <= heel_off <= toe_off < heel_strike + 1",
-                           gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off);
+/* keys that say the time of a step, too */
+static void check_times(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                        const ambulo_gait *gait) {
+  const ambulo__gait_rule *rule = &reader->keys.rule;
+  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
+  double mean = mean_step_time(gait), duration = rule->duration / (double)gait->steps;
+  if (is_list(time) && reader->has_duration) check_agreement(time, "step_time", mean, duration);
+  if (!is_list(time) && reader->has_duration)
+    check_agreement(time, "step_time", rule->time[0], duration);
+  if (rule->time_kind == AMBULO__TIME_OF_SPEED) return;
+  double by_speed = ambulo__gait_place(gait, gait->steps) / (rule->speed * (double)gait->steps);
+  check_agreement(ambulo__yaml_get(section, "speed"), "speed", by_speed, mean);
 }
 
 static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
@@ -265,101 +247,42 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
   reader->definition.contact_count = count;
 }
 
-/* two step times: 1 if the file gives them */
-static int read_two_times(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                          const walking_pace *pace, ambulo_gait *gait) {
-  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_time");
-  const double *times = pace->times;
-  if (!is_list(node)) return 0;
-  gait->step_time = times[0];
-  gait->other_step_time = times[1];
-  if (!(times[0] >= 1e-3 && times[1] >= 1e-3 && times[0] <= 1e3 && times[1] <= 1e3)) {
-    if (!isnan(times[0]) && !isnan(times[1]))
-      (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                               "step times %g s and %g s; expected 0.001 to 1000 s", times[0],
-                               times[1]);
-    gait->step_time = gait->other_step_time = 1.0;
-    return 1;
-  }
-  double mean = mean_step_time(gait);
-  if (reader->has_duration)
-    check_agreement(node, "step_time", mean, reader->definition.duration / (double)gait->steps);
-  check_agreement(ambulo__yaml_get(section, "speed"), "speed", step_time_at(gait, pace->speed),
-                  mean);
-  return 1;
-}
-
-/* mean time of a step where the keys of time say it, else NaN */
-static double given_step_time(const ambulo__problem_reader *reader, const walking_pace *pace,
-                              int steps) {
-  const ambulo_gait timed = {.step_time = pace->times[0], .other_step_time = pace->times[1]};
-  if (reader->has_duration) return reader->definition.duration / (double)steps;
-  return ambulo__gait_strike(&timed, steps) / (double)steps;
-}
-
-/* one length, two, a function of the speed, that of the speed and a time, or that which people
- * choose at the speed */
-static void read_step_lengths(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                              const walking_pace *pace, ambulo_gait *gait) {
-  const double walk_ratio = 0.0035, usual = 1.75; /* statures per (step / min) at m */
-  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
-  double stature = ambulo_model_stature(reader->model);
-  double by_time = pace->speed * given_step_time(reader, pace, gait->steps);
-  if (is_list(node)) {
-    double lengths[2] = {0.0, 0.0};
-    (void)ambulo__yaml_numbers(node, 2, lengths);
-    gait->step_length = lengths[0];
-    gait->other_step_length = lengths[1] != 0.0 ? lengths[1] : AMBULO_OFF;
-  } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
-    gait->step_length = ambulo__read_step_length(reader, node, pace->speed);
-  } else if (!node && !isnan(by_time)) {
-    gait->step_length = by_time;
-  } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
-    double speed = isnan(pace->speed) ? 1.0 : pace->speed;
-    gait->step_length = sqrt(60.0 * speed * walk_ratio * stature * sqrt(stature / usual));
-  } else {
-    gait->step_length =
-        ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
-  }
-}
-
 static int differs(double value, double other) {
   return !isnan(other) && fabs(value - other) > 1e-9 * fabs(value);
 }
 
 static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  static const char *const landings[] = {"heel", "forefoot"};
+  ambulo__problem_keys *keys = &reader->keys;
+  ambulo__gait_rule *rule = &keys->rule;
   ambulo_gait gait = ambulo_gait_default();
   gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
-  const walking_pace pace = read_pace(section);
-  read_step_lengths(reader, section, &pace, &gait);
-  static const char *const landings[] = {"heel", "forefoot"};
   gait.forefoot = ambulo__yaml_choice(ambulo__yaml_get(section, "landing"), landings, 2, 0);
-  double longer = reader->keys.longer > 0.0 ? reader->keys.longer : 1.0;
-  gait.step_width = longer * ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0,
-                                                    10.0, neutral_width(reader->model) / longer);
   gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
-  if (!read_two_times(reader, section, &pace, &gait))
-    gait.step_time = read_step_time(reader, section, &pace, &gait);
-  read_phases(reader, section, &gait);
+  rule->fixed = gait;
+  read_times(reader, section);
+  read_lengths(reader, section);
+  double longer = keys->longer > 0.0 ? keys->longer : 1.0;
+  rule->width =
+      longer * ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0, NAN);
+  const ambulo__yaml_node *phases = ambulo__yaml_get(section, "phases");
+  ambulo__read_phases(reader, phases);
+  ambulo__gait_follow(rule, reader->model, &gait);
+  check_times(reader, section, &gait);
+  ambulo__check_phases(reader, phases, &gait);
   ambulo__yaml_close(section);
   if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
   reader->definition.travel = ambulo__gait_place(&gait, gait.steps);
   reader->steps = gait.steps;
   reader->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
                          differs(gait.step_length, gait.other_step_length);
-  reader->keys.gait = 1;
-  reader->keys.steps = gait.steps;
-  reader->keys.unlike_steps = reader->unlike_steps;
-  reader->keys.speed = ambulo__yaml_get(section, "speed") != NULL;
-  const ambulo__yaml_node *length = ambulo__yaml_get(section, "step_length");
-  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
-  reader->keys.length = length && !reader->keys.length_function;
-  reader->keys.lengths = is_list(length);
-  reader->keys.step_time = time && !is_list(time);
-  reader->keys.times = is_list(time);
-  reader->keys.duration = reader->has_duration;
-  reader->keys.walk = gait;
+  keys->gait = 1;
+  keys->steps = gait.steps;
+  keys->unlike_steps = reader->unlike_steps;
+  keys->speed = ambulo__yaml_get(section, "speed") != NULL;
+  keys->lengths = is_list(ambulo__yaml_get(section, "step_length"));
+  keys->walk = gait;
   expand(reader, section, &gait);
 }
 
