@@ -139,8 +139,8 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_verify(
 
 /* Writes results.csv and results.jsonl into `directory`: one line per case, sorted by id, the
  * axes and the outputs the sweep file asks for. Idempotent; the same bytes whatever the order
- * in which cases were solved. Of a front, its points are judged, the lines tell which are on it,
- * and front.svg is drawn; warnings tell of gaps that refuse to close. Every file is compared with
+ * in which cases were solved. Of a front, its points are judged, and the lines tell which are on
+ * it; warnings tell of gaps that refuse to close. Every file is compared with
  * its checksum; a case of which one is damaged or cannot be read has the state "corrupt", no
  * outputs, a warning that names the file, and is counted in the census. Errors, which leave the
  * tables as they were: as ambulo_batch_status; and a table that cannot be written. */
@@ -148,24 +148,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
                                                                const ambulo_allocator *allocator,
                                                                ambulo_diagnostics *diagnostics,
                                                                ambulo_batch_census *census);
-
-typedef struct ambulo_plot_options {
-  size_t size;              /* set by ambulo_plot_options_default() */
-  const char *const *where; /* [where_count] conditions such as "speed < 1.5": cases are drawn for
-                               which all hold. Names: axes, outputs, id, name, state */
-  int where_count;
-} ambulo_plot_options;
-AMBULO_DEFAULT(ambulo_plot_options);
-
-/* Draws a collected output over one axis (curves) or two (a heat map) as SVG into `directory`;
- * plot is "X:OUTPUT" or "X,Y:OUTPUT"; options may be NULL. *file: path of the drawing, free with
- * ambulo_text_free. Errors: E_ARGUMENT (no such axis, output or column, no numbers in it, a
- * condition that is no comparison), E_IO, E_PROBLEM (as ambulo_batch_status), E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
-                                                            const ambulo_plot_options *options,
-                                                            const ambulo_allocator *allocator,
-                                                            ambulo_diagnostics *diagnostics,
-                                                            char **file);
 
 /* Processes that ambulo_batch_run would use: workers where > 0, else the usable processors;
  * limited by the free memory with `megabytes` each (0: unknown). */

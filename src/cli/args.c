@@ -144,6 +144,10 @@ static int unknown_option(const parser *p, const char *text, size_t length) {
   if (length <= LONGEST_WORD) memcpy(word, text, length);
   const char *nearest = ambulo__cli_nearest(word, names, count);
   if (nearest) ambulo__cli_format(hint, sizeof hint, "did you mean '--%s'?", nearest);
+  for (const char *const *former = command->former; former && *former; former += 2)
+    if (!strcmp(word, former[0]))
+      return ambulo__cli_usage_error(command->name, former[1], "'--%s' is no longer an option",
+                                     word);
   return ambulo__cli_usage_error(command->name, nearest ? hint : NULL, "unknown option '%s'",
                                  p->argv[p->next]);
 }

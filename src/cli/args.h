@@ -21,7 +21,9 @@ typedef struct ambulo__cli_command {
   int option_count;
   int minimum, maximum; /* number of positional arguments; maximum < 0: any */
   int files;            /* so many of the first may be names of shipped files; < 0: all of them */
-  const char *words;    /* a shell command that lists what the arguments may be; NULL: only files */
+  const char *const *former; /* options of earlier versions and what to write instead, in pairs,
+                                then NULL; NULL: none */
+  const char *words; /* a shell command that lists what the arguments may be; NULL: only files */
   int (*run)(const ambulo__cli_input *input); /* returns the exit code */
 } ambulo__cli_command;
 

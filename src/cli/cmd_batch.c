@@ -82,7 +82,7 @@ static int read_options(const ambulo__cli_input *input, ambulo_batch_options *o)
          ambulo__cli_number(input, "grace", 0.0, 1e9, &o->grace) && read_shard(input, o);
 }
 
-/* the table and the picture of a front, and what became of it */
+/* the table of a front, and what became of it */
 static int collect_front(const char *directory, int quiet) {
   ambulo_batch_census census;
   memset(&census, 0, sizeof census);
@@ -90,7 +90,7 @@ static int collect_front(const char *directory, int quiet) {
   ambulo_status status = ambulo_batch_collect(directory, NULL, diagnostics, &census);
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
   ambulo_diagnostics_free(diagnostics);
-  if (!code && !quiet) ambulo__cli_print_front(directory, &census.front);
+  if (!code && !quiet) ambulo__cli_print_front(&census.front);
   return code;
 }
 

@@ -1,4 +1,4 @@
-/* cli/cmd_collect.c - ambulo collect: one table, and pictures, of a batch folder. */
+/* cli/cmd_collect.c - ambulo collect: one table of a batch folder. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,8 +8,6 @@
 #include "cli/format.h"
 #include "cli/front_words.h"
 #include "cli/output.h"
-
-enum { MOST_CONDITIONS = 64 };
 
 /* returns the exit code */
 static int print_census(const char *directory, const ambulo_batch_census *c) {
@@ -35,14 +33,7 @@ static int is_no_batch(const char *directory) {
 }
 
 static int run(const ambulo__cli_input *input) {
-  const char *directory = input->arguments[0], *plot = ambulo__cli_value(input, "plot");
-  const char *where[MOST_CONDITIONS];
-  if (input->given_count > MOST_CONDITIONS)
-    return ambulo__cli_usage_error("collect", NULL, "more than %d options", MOST_CONDITIONS);
-  int conditions = ambulo__cli_values(input, "where", where);
-  if (conditions > 0 && !plot)
-    return ambulo__cli_usage_error("collect", "a table is always whole",
-                                   "--where without --plot; expected X[,Y]:OUTPUT");
+  const char *directory = input->arguments[0];
   if (is_no_batch(directory)) {
     ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' fills one",
                       "%s: no batch folder (it has no batch.json)", directory);
@@ -55,44 +46,30 @@ static int run(const ambulo__cli_input *input) {
   int code = 0;
   if (!status) {
     printf("written to %s/results.csv and %s/results.jsonl\n", directory, directory);
-    ambulo__cli_print_front(directory, &census.front);
+    ambulo__cli_print_front(&census.front);
     code = print_census(directory, &census);
   }
-  char *file = NULL;
-  ambulo_plot_options drawing = ambulo_plot_options_default();
-  drawing.where = where;
-  drawing.where_count = conditions;
-  if (!status && plot)
-    status = ambulo_batch_plot(directory, plot, &drawing, NULL, diagnostics, &file);
-  if (file) printf("drawn to %s\n", file);
-  ambulo_text_free(file, NULL);
   int failed = ambulo__cli_diagnostics(diagnostics, status, directory);
   ambulo_diagnostics_free(diagnostics);
   return failed ? failed : code;
 }
 
-static const ambulo__cli_option options[] = {
-    {"plot", 0, "X[,Y]:OUTPUT",
-     "draw an output over one axis (curves) or two (a heat map), as SVG;\n"
-     "every point names its case and leads to its gait.svg"},
-    {"where", 0, "NAME<VALUE",
-     "draw only the cases for which this holds (< <= > >= == !=; NAME is an\n"
-     "axis, an output, name or state); may be repeated"},
-};
+static const char *const former[] = {
+    "plot", "'ambulo report DIR' draws any columns of the table, and fronts; so does Python",
+    "where", "a table is always whole; the page of 'ambulo report DIR' filters it", NULL};
 
 const ambulo__cli_command ambulo__cli_collect = {
     .name = "collect",
     .arguments = "DIR",
-    .summary = "write the table of a batch, and draw it",
+    .summary = "write the table of a batch",
     .description =
         "Writes DIR/results.csv and DIR/results.jsonl: one line per case, sorted by id, with the\n"
         "axes and the outputs the sweep file asks for. The same results give the same bytes,\n"
         "however they were computed. Every file is compared with its checksum. Exit code 0: every\n"
         "case is finished; 1: some are missing, or stale (of other inputs); 4: some are corrupt\n"
         "(damaged since, or cannot be read). The table is written all the same and says which.",
-    .example = "ambulo collect walks --plot gait.speed:objective --where 'sex == male'",
-    .options = options,
-    .option_count = sizeof options / sizeof options[0],
+    .example = "ambulo collect walks",
+    .former = former,
     .minimum = 1,
     .maximum = 1,
     .run = run,

@@ -140,8 +140,8 @@ const ambulo__cli_command ambulo__cli_draw = {
     .arguments = "DIR|PICTURE.svg | PROBLEM.yaml DIR|SOLUTION.yaml",
     .summary = "pictures for a paper: PDF, PNG or SVG of a motion, its curves",
     .description =
-        "Of one result folder: its gait.svg as PDF or PNG; of an SVG file, such as a plot of\n"
-        "'ambulo collect', the same. Of a problem and its result folder: the motion is drawn "
+        "Of one result folder: its gait.svg as PDF or PNG; of another SVG file\n"
+        "the same. Of a problem and its result folder: the motion is drawn "
         "anew,\n"
         "with the parts, units and people that options ask for, from the solution's spline "
         "itself.\n"

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-void ambulo__cli_print_front(const char *directory, const ambulo_front_census *f) {
+void ambulo__cli_print_front(const ambulo_front_census *f) {
   if (f->terms == 0) return;
   printf("front of %d points", f->points);
   if (f->points > 1 && f->mean_gap > 0.0)
@@ -11,5 +11,4 @@ void ambulo__cli_print_front(const char *directory, const ambulo_front_census *f
   if (f->refused > 0) printf(", %d gap%s refused to close", f->refused, f->refused > 1 ? "s" : "");
   if (f->left_out > 0) printf(", %d left out that another beats", f->left_out);
   printf("\n");
-  if (f->points > 0) printf("drawn to %s/front.svg\n", directory);
 }

@@ -5,6 +5,6 @@
 #include "ambulo/ambulo.h"
 
 /* Nothing where the folder has no front. */
-void ambulo__cli_print_front(const char *directory, const ambulo_front_census *front);
+void ambulo__cli_print_front(const ambulo_front_census *front);
 
 #endif

@@ -1,10 +1,9 @@
 /* study/collect.c - the table of a batch folder.
  *
  * Of a front (study/front.h) each line also has the values of its terms without their weights,
- * where it stands, and which case is better, and front.svg is drawn.
+ * where it stands, and which case is better.
  *
- * Reading order: gather.h, collect.c, outputs.h, verify.c; front_points.h, front_run.c,
- * front_picture.c; plot.h, plot.c, plot_layout.c and the other plot files.
+ * Reading order: gather.h, collect.c, outputs.h, verify.c; front_points.h, front_run.c.
  */
 #include "formats/atomic_file.h"
 #include "base/numtext.h"
@@ -223,7 +222,6 @@ static ambulo_status collect(const char *directory, const ambulo__listing *listi
   if (!status) status = write_all(directory, listing, &front, diagnostics, census);
   if (!status)
     status = ambulo__front_tell(directory, listing, &front, &report, diagnostics, &found);
-  if (!status) status = ambulo__front_draw(directory, listing, &front, &report, diagnostics);
   census->front = found;
   ambulo__front_free(a, &front);
   return status;

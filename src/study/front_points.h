@@ -25,9 +25,4 @@ ambulo_status ambulo__front_tell(const char *directory, const ambulo__listing *l
                                  const ambulo__front *front, const ambulo__front_report *report,
                                  ambulo_diagnostics *diagnostics, ambulo_front_census *census);
 
-/* front_picture.c: DIR/front.svg. Errors: E_IO, E_MEMORY. */
-ambulo_status ambulo__front_draw(const char *directory, const ambulo__listing *listing,
-                                 const ambulo__front *front, const ambulo__front_report *report,
-                                 ambulo_diagnostics *diagnostics);
-
 #endif

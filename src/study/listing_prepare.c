@@ -168,6 +168,7 @@ static int is_known(const char *name) {
                                       "batch.json", "results.csv", "results.jsonl"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++)
     if (strcmp(name, names[i]) == 0) return 1;
+  /* drawings are those of earlier versions */
   return begins_with(name, "results_") || begins_with(name, "front.svg") ||
          begins_with(name, "results.csv.tmp-") || begins_with(name, "results.jsonl.tmp-");
 }

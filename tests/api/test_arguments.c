@@ -234,14 +234,6 @@ static void batches_are_not_asked_for_nothing(void **state) {
   (void)state;
   ambulo_sweep *sweep = NULL;
   ambulo_batch_census census;
-  ambulo_plot_options zero;
-  char *file = NULL;
-  const char *where[] = {"a < 1"};
-  memset(&zero, 0, sizeof zero);
-  ambulo_plot_options negative = ambulo_plot_options_default(), none = negative;
-  negative.where = where;
-  negative.where_count = -1;
-  none.where_count = 1;
   REFUSED(ambulo_sweep_load(NULL, NULL, NULL, &sweep));
   REFUSED(ambulo_sweep_load("x", NULL, NULL, NULL));
   REFUSED(ambulo_batch_run(NULL, "x", NULL, NULL, NULL, NULL));
@@ -249,14 +241,7 @@ static void batches_are_not_asked_for_nothing(void **state) {
   REFUSED(ambulo_batch_status("x", NULL, NULL, NULL));
   REFUSED(ambulo_batch_verify(NULL, NULL, NULL, NULL, NULL, &census));
   REFUSED(ambulo_batch_collect(NULL, NULL, NULL, &census));
-  REFUSED(ambulo_batch_plot(NULL, "x:y", NULL, NULL, NULL, &file));
-  REFUSED(ambulo_batch_plot("x", NULL, NULL, NULL, NULL, &file));
-  REFUSED(ambulo_batch_plot("x", "x:y", NULL, NULL, NULL, NULL));
-  REFUSED(ambulo_batch_plot("x", "x:y", &zero, NULL, NULL, &file));
-  REFUSED(ambulo_batch_plot("x", "x:y", &negative, NULL, NULL, &file));
-  REFUSED(ambulo_batch_plot("x", "x:y", &none, NULL, NULL, &file));
   assert_null(sweep);
-  assert_null(file);
 }
 
 int main(void) {

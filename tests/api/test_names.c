@@ -78,7 +78,6 @@ static void folders_that_are_read(void **state) {
   refused(&o, ambulo_batch_status("", NULL, o.list, &census), says);
   refused(&o, ambulo_batch_verify("", NULL, NULL, NULL, o.list, &census), says);
   refused(&o, ambulo_batch_collect("", NULL, o.list, &census), says);
-  refused(&o, ambulo_batch_plot("", "a:b", NULL, NULL, o.list, &text), says);
   assert_true(!comparison && !text);
   close_objects(&o);
 }

@@ -1,4 +1,4 @@
-/* Every step of collecting, verifying and drawing a batch fails once: the k-th file operation of
+/* Every step of collecting and verifying a batch fails once: the k-th file operation of
  * each kind, the k-th request for memory. No table says what is not so, and every failure has a
  * message. */
 #define _DEFAULT_SOURCE /* syscall */
@@ -138,64 +138,10 @@ static void memory_fails_while_it_is_verified(void **state) {
   }
 }
 
-/* ------------------------------------------------------------------ drawing */
-
-static void expect_true_drawing(ambulo_status status) {
-  if (access(in_folder("results_T_objective.svg"), F_OK)) {
-    assert_true(status != AMBULO_OK);
-    return;
-  }
-  char *text = read_whole(in_folder("results_T_objective.svg"));
-  if (strcmp(text, w.drawing) != 0) assert_non_null(strstr(text, "corrupt"));
-  free(text);
-}
-
-static void files_fail_while_it_is_drawn(void **state) {
-  (void)state;
-  for (int kind = 0; kind < FAULT_KINDS; kind++) {
-    for (long k = 0;; k++) {
-      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-      remove_tables();
-      fault_arm((fault_kind)kind, k);
-      ambulo_status status = draw(NULL, list);
-      int hit = fault_disarm();
-      expect_told(status, list);
-      expect_true_drawing(status);
-      ambulo_diagnostics_free(list);
-      if (!hit) break;
-    }
-  }
-}
-
-static void memory_fails_while_it_is_drawn(void **state) {
-  (void)state;
-  for (int only_once = 0; only_once < 2; only_once++) {
-    for (long k = 0;; k++) {
-      fail_alloc memory = fail_alloc_at(k);
-      memory.only_once = only_once;
-      ambulo_allocator hook = fail_alloc_hook(&memory);
-      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-      remove_tables();
-      ambulo_status status = draw(&hook, list);
-      expect_told(status, list);
-      assert_int_equal(memory.live, 0);
-      assert_true(status == AMBULO_OK || (status == AMBULO_E_MEMORY && memory.failed));
-      if (!status) {
-        char *drawing = read_whole(in_folder("results_T_objective.svg"));
-        assert_string_equal(drawing, w.drawing);
-        free(drawing);
-      }
-      ambulo_diagnostics_free(list);
-      if (!memory.failed) break;
-    }
-  }
-}
-
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
   const struct CMUnitTest tests[] = {
-      TEST(files_fail_while_it_collects),    TEST(memory_fails_while_it_collects),
-      TEST(files_fail_while_it_is_verified), TEST(memory_fails_while_it_is_verified),
-      TEST(files_fail_while_it_is_drawn),    TEST(memory_fails_while_it_is_drawn)};
+      TEST(files_fail_while_it_collects), TEST(memory_fails_while_it_collects),
+      TEST(files_fail_while_it_is_verified), TEST(memory_fails_while_it_is_verified)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

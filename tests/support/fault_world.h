@@ -1,4 +1,4 @@
-/* tests/support/fault_world.h - a small batch, finished, with its table and its drawing, for tests
+/* tests/support/fault_world.h - a small batch, finished, with its table, for tests
  * in which steps of it fail. */
 #ifndef AMBULO_TESTS_FAULT_WORLD_H
 #define AMBULO_TESTS_FAULT_WORLD_H
@@ -21,7 +21,7 @@ static const char study[] = "axes:\n  - {key: model, values: [one.yaml]}\n"
 typedef struct world {
   fake_batch batch;
   const char *folder;
-  char *table, *lines, *drawing; /* of an undisturbed run */
+  char *table, *lines; /* of an undisturbed run */
 } world;
 
 static world w;
@@ -34,27 +34,18 @@ static inline const char *in_folder(const char *name) {
   return fake_batch_path(&w.batch, name);
 }
 
-static inline ambulo_status draw(const ambulo_allocator *allocator, ambulo_diagnostics *list) {
-  char *file = NULL;
-  ambulo_status status = ambulo_batch_plot(w.folder, "T:objective", NULL, allocator, list, &file);
-  ambulo_text_free(file, allocator);
-  return status;
-}
-
 static inline int open_world(void **state) {
   if (scratch_open(state) || fake_batch_open(&w.batch, state, study)) return -1;
   w.folder = w.batch.folder;
-  if (ambulo_batch_collect(w.folder, NULL, NULL, NULL) || draw(NULL, NULL)) return -1;
+  if (ambulo_batch_collect(w.folder, NULL, NULL, NULL)) return -1;
   w.table = read_whole(in_folder("results.csv"));
   w.lines = read_whole(in_folder("results.jsonl"));
-  w.drawing = read_whole(in_folder("results_T_objective.svg"));
   return 0;
 }
 
 static inline int close_world(void **state) {
   free(w.table);
   free(w.lines);
-  free(w.drawing);
   fake_batch_close(&w.batch);
   return scratch_close(state);
 }

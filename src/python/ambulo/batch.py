@@ -3,7 +3,7 @@
 import json
 import os
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Union
 
 import numpy
 
@@ -259,18 +259,17 @@ class Study:
 
     # ----------------------------------------------------------------- pictures
 
-    def plot(self, plot: str, where: Sequence[str] = ()) -> Path:
-        """Draws an output over one axis, ``"X:OUTPUT"``, or two, ``"X,Y:OUTPUT"``, as SVG into the
-        folder; ``where`` are conditions such as ``"speed < 1.5"``."""
-        where = [where] if isinstance(where, str) else list(where)
-        carrier, out = Carrier(), ffi.new("char **")
-        options = carrier.new(records.PlotOptions(where=where))
-        with Call() as call:
-            call(lib.ambulo_batch_plot(path_of(self.folder), plot.encode(), options, NULL,
-                                       call.messages, out))
-        path = Path(text_of(out[0]))
-        lib.ambulo_text_free(out[0], NULL)
-        return path
+    def plot(self, x: str, y: str, by: Optional[str] = None, **options):
+        """A column of the table over another: ``ambulo.plots.study``."""
+        from . import plots
+
+        return plots.study(self, x, y, by, **options)
+
+    def plot_front(self, **options):
+        """The points of a Pareto front: ``ambulo.plots.front``."""
+        from . import plots
+
+        return plots.front(self, **options)
 
     def report(self, path=None, **options) -> Path:
         """Writes the page to watch: table, plots and motions in one HTML file, by default

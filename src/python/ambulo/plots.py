@@ -90,3 +90,62 @@ def sensitivities(of, most: int = 15, *, title: Optional[str] = None):
     axes[0, 0].set_xlabel("% of the objective")
     axes[0, 0].grid(axis="x", alpha=0.3)
     return figure
+
+
+def _is_valid(case):
+    return case.state in ("optimal", "feasible")
+
+
+def study(of, x: str, y: str, by: Optional[str] = None, *, title: Optional[str] = None):
+    """A column of a study's table over another, a point for each case that has both numbers; with
+    ``by``, a third column, a line for each of its values. Hollow: no valid solution. ``of``: a
+    Study, or a list of its cases."""
+    figure, axes = _axes(1, 1, (7, 4.5), title)
+    groups = {}
+    for case in of:
+        for name in filter(None, (x, y, by)):
+            if name not in case.values:
+                raise KeyError(f"no column '{name}'; there are {', '.join(case.values)}")
+        if all(isinstance(case.values[name], (int, float)) for name in (x, y)):
+            groups.setdefault(case.values[by] if by else None, []).append(case)
+    for value, cases in sorted(groups.items(), key=lambda item: (str(type(item[0])), item[0])):
+        cases.sort(key=lambda case: case.values[x])
+        _points(axes[0, 0], cases, x, y, "-" if by else "none", f"{by} {value}" if by else None)
+    if by and len(groups) <= 12:
+        axes[0, 0].legend(fontsize="small")
+    return figure
+
+
+def front(of, *, title: Optional[str] = None):
+    """A Pareto front: each term without its weight over another, a panel for each two. Points of
+    the front are filled (of two terms, a line joins them), others hollow. ``of``: a Study."""
+    cases = [case for case in of if _is_valid(case)]
+    terms = [name[7:-1] for name in (cases[0].values if cases else ()) if name.startswith("weight(")]
+    if not terms or "front" not in cases[0].values:
+        raise ValueError("the study has no front, or no point of one is solved")
+    pairs = [(a, b) for k, a in enumerate(terms) for b in terms[k + 1:]]
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(1, len(pairs), figsize=(5 * len(pairs), 4.5), squeeze=False,
+                                   layout="constrained")
+    if title:
+        figure.suptitle(title)
+    on = sorted((case for case in cases if case.values["front"] == "yes"),
+                key=lambda case: case.values["place"])
+    for axis, (x, y) in zip(axes[0], pairs):
+        _points(axis, on, x, y, "-" if len(terms) == 2 else "none")
+        others = [case for case in cases if case.values["front"] != "yes"]
+        axis.plot([case.values[x] for case in others], [case.values[y] for case in others], "o",
+                  color="0.5", markerfacecolor="none", zorder=1)
+    return figure
+
+
+def _points(axis, cases, x, y, line, label=None):
+    drawn, = axis.plot([case.values[x] for case in cases], [case.values[y] for case in cases],
+                       linestyle=line, marker="o", label=label)
+    failed = [case for case in cases if not _is_valid(case)]
+    axis.plot([case.values[x] for case in failed], [case.values[y] for case in failed], "o",
+              color=drawn.get_color(), markerfacecolor="white")
+    axis.set_xlabel(x)
+    axis.set_ylabel(y)
+    axis.grid(alpha=0.3)
