@@ -135,10 +135,75 @@ static void every_allocation_may_fail(void **state) {
   ambulo_model_free(model);
 }
 
+static void expect_same_numbers(const double *got, const double *want, int count) {
+  for (int i = 0; i < count; i++) {
+    if (isfinite(want[i]))
+      assert_close(got[i], want[i], 1e-13);
+    else
+      assert_true(got[i] == want[i]);
+  }
+}
+
+/* a file read for another subject, and the same model made that size */
+static void another_size_is_another_subject(void **state) {
+  (void)state;
+  static const char *const files[] = {"models/whole_body_29.yaml", "models/lower_body_18.yaml"};
+  for (int f = 0; f < 2; f++) {
+    ambulo_model *model = NULL, *other = NULL;
+    ambulo_subject subject = ambulo_subject_default();
+    assert_int_equal(ambulo_model_load(files[f], NULL, NULL, NULL, &model), 0);
+    subject.mass = 1.25 * model->units.mass;
+    subject.stature = 0.8 * model->stature;
+    assert_int_equal(ambulo_model_load(files[f], &subject, NULL, NULL, &other), 0);
+    ambulo__model_resize(model, 1.25, 0.8);
+    assert_close(model->mass, other->mass, 1e-13);
+    assert_close(model->stature, other->stature, 1e-13);
+    expect_same_numbers(&model->units.angle, &other->units.angle, 5);
+    for (int i = 0; i < model->link_count; i++) {
+      const ambulo_link *got = &model->links[i], *want = &other->links[i];
+      expect_same_numbers(&got->theta, &want->theta, 4);
+      expect_same_numbers(&got->mass, &want->mass, 10);
+    }
+    for (int i = 0; i < model->coordinate_count; i++) {
+      expect_same_numbers(model->coordinates[i].range, other->coordinates[i].range, 6);
+      assert_close(model->coordinates[i].default_value, other->coordinates[i].default_value, 1e-13);
+    }
+    for (int i = 0; i < model->point_count; i++)
+      expect_same_numbers(model->points[i].position, other->points[i].position, 3);
+    expect_same_numbers(model->neutral, other->neutral, 3 * model->point_count);
+    for (int i = 0; i < model->capsule_count; i++)
+      expect_same_numbers(model->capsules[i].from, other->capsules[i].from, 7);
+    ambulo_model_free(model);
+    ambulo_model_free(other);
+  }
+}
+
+/* put down again, also from a link that has nothing but its load */
+static void what_is_carried_is_put_down(void **state) {
+  (void)state;
+  static const double place[3] = {0.1, -0.2, 0.05};
+  ambulo_model *model = shipped(), *same = shipped();
+  int empty = 0;
+  while (model->links[empty].mass != 0.0) empty++;
+  int full = ambulo_model_find_link(model, "shank_r");
+  ambulo__model_carry(model, full, 7.0, place);
+  ambulo__model_carry(model, empty, 3.0, place);
+  ambulo__model_put_down(model);
+  assert_int_equal(model->load_count, 0);
+  assert_close(model->mass, same->mass, 1e-13);
+  expect_same_numbers(&model->links[full].mass, &same->links[full].mass, 10);
+  expect_same_numbers(&model->links[empty].mass, &same->links[empty].mass, 10);
+  ambulo_model_free(model);
+  ambulo_model_free(same);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_asked_is_a_copy), cmocka_unit_test(a_slope_turns_gravity),
-      cmocka_unit_test(loads_add_up), cmocka_unit_test(what_is_refused),
-      cmocka_unit_test(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_asked_is_a_copy),
+                                     cmocka_unit_test(another_size_is_another_subject),
+                                     cmocka_unit_test(what_is_carried_is_put_down),
+                                     cmocka_unit_test(a_slope_turns_gravity),
+                                     cmocka_unit_test(loads_add_up),
+                                     cmocka_unit_test(what_is_refused),
+                                     cmocka_unit_test(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("model/conditions", tests, NULL, NULL);
 }

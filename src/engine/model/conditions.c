@@ -31,6 +31,81 @@ void ambulo__model_carry(ambulo_model *model, int link, double mass, const doubl
       (ambulo__model_load){link, mass, {position[0], position[1], position[2]}};
 }
 
+static void take_off(ambulo_link *carrier, const ambulo__model_load *load) {
+  ambulo__part whole = {.mass = carrier->mass}, less = {.mass = -load->mass};
+  if (carrier->mass - load->mass > 1e-12 * load->mass) {
+    memcpy(whole.com, carrier->com, sizeof whole.com);
+    memcpy(whole.inertia, carrier->inertia, sizeof whole.inertia);
+    memcpy(less.com, load->position, sizeof less.com);
+    ambulo__part_add(&whole, &less);
+  } else {
+    whole.mass = 0.0;
+  }
+  carrier->mass = whole.mass;
+  memcpy(carrier->com, whole.com, sizeof whole.com);
+  memcpy(carrier->inertia, whole.inertia, sizeof whole.inertia);
+}
+
+void ambulo__model_put_down(ambulo_model *model) {
+  for (int i = 0; i < model->load_count; i++) {
+    take_off(&model->links[model->loads[i].link], &model->loads[i]);
+    model->mass -= model->loads[i].mass;
+  }
+  model->load_count = 0;
+}
+
+static void stretch(double *lengths, int count, double longer) {
+  for (int i = 0; i < count; i++) lengths[i] *= longer;
+}
+
+static void resize_coordinate(ambulo_coordinate *c, double longer, double moment, double force) {
+  int turns = c->type == AMBULO_REVOLUTE;
+  stretch(c->torque, 2, turns ? moment : force);
+  if (turns) return;
+  stretch(c->range, 2, longer);
+  stretch(c->speed, 2, longer);
+  c->default_value *= longer;
+}
+
+static void stretch_places(ambulo_model *m, double longer) {
+  for (int i = 0; i < m->point_count; i++) {
+    stretch(m->points[i].position, 3, longer);
+    stretch(m->neutral + (size_t)i * 3, 3, longer);
+  }
+  for (int i = 0; i < m->patch_count; i++) stretch(m->patches[i].size, 2, longer);
+  for (int i = 0; i < m->capsule_count; i++) {
+    stretch(m->capsules[i].from, 3, longer);
+    stretch(m->capsules[i].to, 3, longer);
+    m->capsules[i].radius *= longer;
+  }
+}
+
+/* masses are shares of M, lengths of H, inertias of M H^2, torques of M g H, forces of M g */
+void ambulo__model_resize(ambulo_model *m, double heavier, double longer) {
+  ambulo__model_units *u = &m->units;
+  double mass = u->mass == 1.0 ? 1.0 : heavier;
+  double length = u->length == 1.0 || u->length == 0.0 ? 1.0 : longer;
+  int by_weight = u->moment != 1.0 && u->moment != 0.0;
+  double force = by_weight ? heavier : 1.0, moment = by_weight ? heavier * longer : 1.0;
+  for (int i = 0; i < m->link_count; i++) {
+    ambulo_link *link = &m->links[i];
+    link->d *= length;
+    link->a *= length;
+    link->mass *= mass;
+    stretch(link->com, 3, length);
+    stretch(link->inertia, 6, mass * length * length);
+  }
+  for (int i = 0; i < m->coordinate_count; i++)
+    resize_coordinate(&m->coordinates[i], length, moment, force);
+  stretch_places(m, length);
+  m->mass *= mass;
+  m->stature *= longer;
+  u->mass *= mass;
+  u->length *= length;
+  u->force *= force;
+  u->moment *= moment;
+}
+
 double ambulo__model_load_mass(const ambulo_model *model) {
   double sum = 0.0;
   for (int i = 0; i < model->load_count; i++) sum += model->loads[i].mass;

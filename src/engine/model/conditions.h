@@ -12,6 +12,13 @@
 /* Fixes a body of `mass` (kg) without extent at `position` (link frame, m). */
 void ambulo__model_carry(ambulo_model *model, int link, double mass, const double position[3]);
 
+/* Takes all loads off again that it knows of; bodies and mass are its own. */
+void ambulo__model_put_down(ambulo_model *model);
+/* Another size, of a model that carries nothing: `heavier` and `longer` times what is a share of
+ * the subject's mass and stature in its file (of a model made from C all masses), and the stature.
+ */
+void ambulo__model_resize(ambulo_model *model, double heavier, double longer);
+
 /* Tilts the ground: the world's axes stay with it (up is its normal, forward points uphill for
  * slope > 0, rad) and gravity is turned instead. */
 void ambulo__model_tilt(ambulo_model *model, double slope);

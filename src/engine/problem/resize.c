@@ -1,0 +1,96 @@
+/* problem/resize.c - see resize.h. */
+#include "problem/resize.h"
+#include "problem/term.h"
+
+#include <math.h>
+
+static void resize_gaps(ambulo_problem_definition *d, double longer) {
+  ambulo_clearance *c = &d->clearance;
+  ambulo_ground_reaction *r = &d->ground_reaction;
+  double *lengths[] = {&d->contact_tolerance,
+                       &d->support_margin,
+                       &c->height,
+                       &c->ceiling,
+                       &c->outward,
+                       &c->inward,
+                       &c->feet,
+                       &d->collision.margin,
+                       &r->moment_arm,
+                       &r->free_moment,
+                       &r->heel_pressure[0],
+                       &r->heel_pressure[1],
+                       &r->heel_roll,
+                       &r->flat_pressure[0],
+                       &r->flat_pressure[1],
+                       &r->toe_pressure[0],
+                       &r->toe_pressure[1],
+                       &r->pressure_width,
+                       &r->arc_pressure};
+  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) *lengths[i] *= longer;
+  r->loading_rate /= sqrt(longer); /* NaN, which says off, stays so */
+}
+
+/* what one coordinate's scale and offset are multiplied by */
+typedef struct factors {
+  double scale, offset;
+} factors;
+
+static factors factors_of(const ambulo_term *term, int turns, double longer, double heavier) {
+  double force = turns ? heavier * longer : heavier, place = turns ? 1.0 : longer;
+  int is_price = term->strength_is_limits || term->strength;
+  switch (ambulo__term_info_of(term->kind)->subject) {
+  case AMBULO__TERM_OF_TORQUE:
+    return (factors){is_price ? 1.0 : 1.0 / force, force};
+  case AMBULO__TERM_OF_TORQUE_RATE:
+    return (factors){sqrt(longer) / force, 1.0};
+  case AMBULO__TERM_OF_POWER:
+    return (factors){1.0 / sqrt(longer), 1.0};
+  case AMBULO__TERM_OF_ACCELERATION:
+    return (factors){turns ? longer : 1.0, 1.0};
+  case AMBULO__TERM_OF_POSITION:
+    return (factors){1.0 / place, place};
+  case AMBULO__TERM_OF_OTHERS: /* a device is what it is, whoever wears it */
+    break;
+  }
+  return (factors){1.0, 1.0};
+}
+
+/* what a const view of an array of the caller's own shows */
+static double *own(const double *array) {
+  union {
+    const double *view;
+    double *array;
+  } of = {array};
+  return of.array;
+}
+
+/* count blocks of `stride` numbers, of which the first is a torque */
+static void resize_peaks(const double *peaks, int count, int stride, double factor) {
+  for (int i = 0; peaks && i < count; i++) own(peaks)[i * stride] *= factor;
+}
+
+static void resize_term(ambulo_term *term, const ambulo_model *model, double longer,
+                        double heavier) {
+  int count = ambulo_model_coordinate_count(model);
+  for (int i = 0; i < count; i++) {
+    int turns = ambulo_model_coordinate(model, i)->type == AMBULO_REVOLUTE;
+    factors by = factors_of(term, turns, longer, heavier);
+    if (term->scale) own(term->scale)[i] *= by.scale;
+    if (term->offset) own(term->offset)[i] *= by.offset;
+    if (term->tendon) own(term->tendon)[i] *= turns ? heavier * longer : heavier / longer;
+  }
+  resize_peaks(term->passive, 2 * count, 2, heavier * longer);
+  resize_peaks(term->strength, 2 * count, 3, heavier * longer);
+  if (term->kind == AMBULO_FORCE_RATE) term->weight *= longer;
+  if (term->kind == AMBULO_CLEARANCE) term->height *= longer;
+}
+
+void ambulo__definition_resize(ambulo_problem_definition *d, int terms, double longer,
+                               double heavier) {
+  union {
+    const ambulo_term *view;
+    ambulo_term *terms;
+  } of = {d->terms};
+  resize_gaps(d, longer);
+  for (int t = 0; t < terms; t++) resize_term(&of.terms[t], d->model, longer, heavier);
+}
