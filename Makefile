@@ -24,8 +24,11 @@ else ifeq ($(VARIANT),san)
 else ifeq ($(VARIANT),cov)
   OUT := build/cov
   MODE := -O0 -g --coverage
+else ifeq ($(VARIANT),way)
+  OUT := build/way
+  MODE := -O0 -g -finstrument-functions
 else
-  $(error VARIANT is '$(VARIANT)'; expected release, debug, san or cov)
+  $(error VARIANT is '$(VARIANT)'; expected release, debug, san, cov or way)
 endif
 
 # ------------------------------------------------------------------- flags
@@ -112,7 +115,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all help setup demo check tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
+.PHONY: all help setup demo check check-long run-long way sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
@@ -127,12 +130,15 @@ help:
 	@echo 'make              build/ambulo, build/libambulo.a, build/libambulo.so'
 	@echo 'make demo         install what is missing, build, solve models/walk.yaml'
 	@echo 'make check        install what is missing, build, run all tests'
+	@echo 'make check-long   what takes longer: every page, packages, users'\'' ways, Python, the report in a browser'
 	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
 	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
 	@echo 'make viewer       that page from its sources in src/show/viewer (npm)'
 	@echo 'make check-python tests of the Python package with all that is optional, in an environment of its own'
 	@echo 'make wheel        the Python package as build/wheel/ambulo-*.whl'
+	@echo 'make way          the files that one solve enters, in order (PROBLEM=models/walk.yaml)'
+	@echo 'make sanitize-engine  tests of src/engine with sanitizers'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
@@ -198,8 +204,10 @@ $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 $(SHARED_LIBRARY): $(LIB_OBJECTS) $(OUT)/obj/sources
 	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
-$(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a
-	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
+# one variant reports which functions it enters
+TRACER := $(if $(filter way,$(VARIANT)),$(OUT)/obj/tests/support/way.o)
+$(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a $(TRACER)
+	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(TRACER) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
 
 # the parts of the program are linked into its tests, its main() is not
 CLI_PARTS := $(filter-out %/main.o,$(CLI_OBJECTS))
@@ -237,6 +245,14 @@ demo: build/.ready-build
 check: build/.ready-test
 	$(submake) run-tests
 
+# What make check runs beside the programs: scripts of rooms, the cases of the program a file at a time.
+# make check-long runs what takes minutes, or needs what is not always there: tests/ROOM/long*.sh, and
+# every page of the docs. SCRIPT:ARGUMENT is a script with an argument.
+SCRIPTS := $(patsubst %,tests/cli/run.sh:%,$(notdir $(sort $(wildcard tests/cli/*.txt)))) \
+  $(filter-out tests/cli/run.sh,$(sort $(wildcard tests/*/run.sh tests/*/run_*.sh)))
+LONG_SCRIPTS := tests/docs/run.sh:--all $(sort $(wildcard tests/*/long*.sh))
+LONG_TESTS := $(filter %/test_sensitivity_reference,$(TESTS))
+
 tests: $(TESTS)
 # what tests are compiled to, without linking: is every call still right?
 test-objects: $(patsubst %.c,$(OUT)/obj/%.o,$(TEST_SOURCES) $(BENCH_SOURCES))
@@ -245,7 +261,13 @@ test-objects: $(patsubst %.c,$(OUT)/obj/%.o,$(TEST_SOURCES) $(BENCH_SOURCES))
 run-tests:
 	+@status=0; $(MAKE) --no-print-directory -k all tests || status=$$?; \
 	  BUILD_STATUS=$$status JOBS=$(JOBS) OUT=$(OUT) CC='$(CC)' CFLAGS='$(CFLAGS)' \
-	  CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' MODE='$(MODE)' tests/support/all.sh $(TESTS)
+	  CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' MODE='$(MODE)' tests/support/all.sh $(SCRIPTS) $(TESTS)
+
+check-long: build/.ready-test
+	$(submake) run-long
+run-long: all $(LONG_TESTS)
+	@JOBS=$(JOBS) OUT=$(OUT) CC='$(CC)' CFLAGS='$(CFLAGS)' CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' \
+	  MODE='$(MODE)' AMBULO_LONG=1 tests/support/all.sh $(LONG_SCRIPTS) $(LONG_TESTS)
 
 check-kill: build/.ready-build
 	$(submake) all
@@ -263,7 +285,7 @@ wheel: build/.ready-build build/.ready-python
 
 check-python: build/.ready-build build/.ready-python
 	$(submake) all
-	@$(PYTHON_PATH) PYTHON=python OUT=$(OUT) CC='$(CC)' MODE='$(MODE)' tests/python/run.sh
+	@$(PYTHON_PATH) PYTHON=python OUT=$(OUT) CC='$(CC)' MODE='$(MODE)' tests/python/long.sh
 
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests
@@ -289,7 +311,7 @@ viewer:
 # the page in a browser, which is installed if it is missing; without one, `make check` skips this
 check-page: build/.ready-page
 	$(submake) all
-	@AMBULO=$(OUT)/ambulo tests/show/run_page.sh
+	@AMBULO=$(OUT)/ambulo tests/show/long_page.sh
 
 bench-peers: build/.ready-build
 	$(submake) $(OUT)/ambulo $(OUT)/bench/peers/ours
@@ -301,6 +323,20 @@ valgrind: build/.ready-valgrind
 	$(submake) $(VALGRIND_TESTS)
 	@TEST_WRAPPER='valgrind -q --leak-check=full --error-exitcode=99' JOBS=$(JOBS) \
 	  OUT=build/valgrind tests/support/all.sh $(VALGRIND_TESTS)
+
+# the files that one solve enters, in order: make way PROBLEM=models/run.yaml
+PROBLEM ?= models/walk.yaml
+way: build/.ready-build
+	$(submake) VARIANT=way build/way/ambulo
+	@.setup/way.sh build/way/ambulo $(PROBLEM)
+
+# the engine's rooms alone: what .ci/run can afford
+ENGINE_ROOMS := $(notdir $(wildcard src/engine/*))
+ENGINE_TESTS := $(filter $(addsuffix /%,$(addprefix $(OUT)/tests/,$(ENGINE_ROOMS))),$(TESTS))
+sanitize-engine: build/.ready-test
+	$(submake) VARIANT=san run-engine-tests
+run-engine-tests: $(ENGINE_TESTS)
+	@JOBS=$(JOBS) OUT=$(OUT) MODE='$(MODE)' tests/support/all.sh $(ENGINE_TESTS)
 
 coverage: build/.ready-test
 	+@$(MAKE) --no-print-directory VARIANT=cov run-tests

@@ -8,7 +8,7 @@
 
 #include "ambulo/ambulo.h"
 
-/* of the release, as in CITATION.cff (tests/package/run.sh compares them) */
+/* of the release, as in CITATION.cff (tests/package/long.sh compares them) */
 static const char release_date[] = "2026-11-23";
 
 /* columns of a line of source */

@@ -18,7 +18,9 @@
 #
 # Prints "N passed, N failed". Environment: OUT (build folder), CC, CFLAGS, LDFLAGS, MODE as in
 # tests/api/run.sh. DOCS_WHOLE=1: sweep_walk.yaml with all its cases, not a few, and what
-# exceptions.txt calls slow. Arguments: only these pages (README.md, docs/..., help-solve).
+# exceptions.txt calls slow. Arguments: only these pages (README.md, docs/..., help-solve). Without any, the
+# README, the first hour and --help run as installed, and the facts of all pages are judged; `--all`
+# (make check-long) runs every page in both places, the two side by side.
 set -u
 [ -z "${DOCS_TEST:-}" ] || { echo 'it runs itself: a page may not ask for make check'; exit 1; }
 export DOCS_TEST=1
@@ -39,12 +41,12 @@ passed=0 failed=0
 count() {
   local name=$1
   shift
-  if "$@" >"$work/log" 2>&1; then
+  if "$@" >"$work/${where:-}log" 2>&1; then
     passed=$((passed + 1))
   else
     failed=$((failed + 1))
     echo "FAILED: $name"
-    tail -n 25 "$work/log" | sed 's/^/  /'
+    tail -n 25 "$work/${where:-}log" | sed 's/^/  /'
   fi
 }
 
@@ -190,18 +192,18 @@ yaml_block() { # WHERE FOLDER FILE: a whole file is checked; a fragment in place
 }
 
 c_block() { # WHERE FOLDER FILE: as the page's own lines compile and run it
-  local name
-  name=$(sed -n 's/^cc \([a-z]*\.c\) .*/\1/p' "$work/compile" | head -n 1)
+  local name where=$1
+  name=$(sed -n 's/^cc \([a-z]*\.c\) .*/\1/p' "$work/$where-compile" | head -n 1)
   [ -n "$name" ] || { echo 'the page has no line that compiles it'; return 1; }
   cp "$3" "$2/$name"
-  (echo 'set -eE'; cat "$work/compile") >"$work/compile.sh"
-  in_world "$1" "$2" bash "$work/compile.sh"
+  (echo 'set -eE'; cat "$work/$where-compile") >"$work/$where-compile.sh"
+  in_world "$1" "$2" bash "$work/$where-compile.sh"
 }
 
 # the shell blocks of a page are one session; says where it ended
 session() { # WHERE FOLDER
-  local status=0
-  in_world "$1" "$2" timeout 300 bash "$work/session.sh" || status=$?
+  local status=0 where=$1
+  in_world "$1" "$2" timeout 300 bash "$work/$where-session.sh" || status=$?
   [ $status = 0 ] || echo "exit code $status"
   return $status
 }
@@ -217,40 +219,41 @@ is_python() { # FILE: are the modules that it needs there?
   [ -z "$needs" ] || "${PYTHON:-python3}" -c "import $needs" 2>/dev/null
 }
 python_session() { # WHERE FOLDER
+  local where=$1
   in_world "$1" "$2" env PYTHONPATH="$work/python" MPLBACKEND=Agg timeout 300 \
-    "${PYTHON:-python3}" "$work/session.py"
+    "${PYTHON:-python3}" "$work/$where-session.py"
 }
 
 # run_page PAGE WHERE FOLDER: its session, then its programs and YAML
 run_page() {
   local page=$1 where=$2 folder=$3 file place path first rest=()
-  printf 'set -eE -o pipefail\ntrap '\''echo "at $place: $BASH_COMMAND"'\'' ERR\n' >"$work/session.sh"
-  compile_lines "$page" "$where" >"$work/compile"
-  : >"$work/session.py"
+  printf 'set -eE -o pipefail\ntrap '\''echo "at $place: $BASH_COMMAND"'\'' ERR\n' >"$work/$where-session.sh"
+  compile_lines "$page" "$where" >"$work/$where-compile"
+  : >"$work/$where-session.py"
   while IFS=$'\t' read -r file place; do
     path=$work/blocks/$page/$file
     first=$(head -n 1 "$path")
     if is_shell "$path"; then
       grep -q '^cc ' "$path" && continue # run with the programs
-      { echo "place='$place'"; wanted_lines "$page" "$where" "$path"; } >>"$work/session.sh"
+      { echo "place='$place'"; wanted_lines "$page" "$where" "$path"; } >>"$work/$where-session.sh"
     elif [ "$first" = '#!/bin/sh' ]; then # the script of docs/batch-format.md
       count "$place: the same as tests/study/slurm_array.sh" \
         diff "$path" <(sed '/^# sbatch/d' tests/study/slurm_array.sh)
       cp "$path" "$folder/slurm_array.sh"
     elif ! exception "$page" "$where" "$first"; then
       case $file in
-      *.python) ! is_python "$path" || { echo "# $place"; cat "$path"; } >>"$work/session.py" ;;
+      *.python) ! is_python "$path" || { echo "# $place"; cat "$path"; } >>"$work/$where-session.py" ;;
       *.c) rest+=("C program" c_block "$place" "$path") ;;
       *.yaml) rest+=("YAML" yaml_block "$place" "$path") ;;
       *) count "$place: a block that is neither run nor in exceptions.txt: $first" false ;;
       esac
     fi
   done <"$work/blocks/$page/list"
-  [ "$(grep -vc '^\(set\|trap\|place=\)' "$work/session.sh")" = 0 ] ||
+  [ "$(grep -vc '^\(set\|trap\|place=\)' "$work/$where-session.sh")" = 0 ] ||
     count "$where: $page: commands" session "$where" "$folder"
-  if [ -s "$work/session.py" ] && [ -d "$work/python" ]; then
+  if [ -s "$work/$where-session.py" ] && [ -d "$work/python" ]; then
     count "$where: $page: Python" python_session "$where" "$folder"
-  elif [ -s "$work/session.py" ]; then
+  elif [ -s "$work/$where-session.py" ]; then
     echo "skipped: tests/docs/run.sh: Python of $page: no python3 with cffi and numpy"
   fi
   set -- "${rest[@]}"
@@ -284,30 +287,58 @@ while read -r command; do
   extract "help-$command" "$work/help" 1
 done <"$work/commands"
 
-for page in $(pages); do
-  case " ${*:-$page} " in *" $page "*) ;; *) continue ;; esac
-  run_page "$page" clone "$work/clone"
-  fresh=$work/installed/${page//\//_}
-  mkdir -p "$fresh"
-  # what the README says to do first
-  in_world installed "$fresh" sh -c 'cp -r "$(ambulo --models)" .'
-  give "$fresh"
-  run_page "$page" installed "$fresh"
-done
-for where in clone installed; do
-  mkdir -p "$work/$where-help" "$work/$where-overview"
-  in_world $where "$work/$where-overview" sh -c 'cp -r "$(ambulo --models)" .'
-  run_page help $where "$work/$where-overview"
-  in_world $where "$work/$where-help" sh -c 'cp -r "$(ambulo --models)" .'
+# the pages of one place, in order: in the clone one folder for all, else a new one for each
+run_pages() { # WHERE PAGE...
+  local where=$1 page folder command
+  shift
+  for page in $(pages); do
+    case " $* " in *" $page "*) ;; *) continue ;; esac
+    folder=$work/clone
+    if [ "$where" = installed ]; then
+      folder=$work/installed/${page//\//_}
+      mkdir -p "$folder"
+      # what the README says to do first
+      in_world installed "$folder" sh -c 'cp -r "$(ambulo --models)" .'
+      give "$folder"
+    fi
+    run_page "$page" "$where" "$folder"
+  done
+  for folder in "$work/$where-overview" "$work/$where-help"; do
+    mkdir -p "$folder"
+    in_world "$where" "$folder" sh -c 'cp -r "$(ambulo --models)" .'
+  done
+  case " $* " in *' help '*) run_page help "$where" "$work/$where-overview" ;; esac
   give "$work/$where-help"
   while read -r command; do
-    case " ${*:-help-$command} " in *" help-$command "*) ;; *) continue ;; esac
-    run_page "help-$command" $where "$work/$where-help"
+    case " $* " in *" help-$command "*) run_page "help-$command" "$where" "$work/$where-help" ;; esac
   done <"$work/commands"
-done
-if [ $# = 0 ]; then
+}
+# the same in a process of its own, with counts in a file
+beside() { # WHERE PAGE...
+  (
+    passed=0 failed=0
+    run_pages "$@"
+    echo "$passed $failed" >"$work/$1.counts"
+  ) >"$work/$1.said" 2>&1 &
+}
+
+mapfile -t helps < <(sed 's/^/help-/' "$work/commands")
+case ${1:-} in
+'') run_pages installed README.md docs/tutorial-first-hour.md help "${helps[@]}" ;;
+--all)
+  everything=("$(pages)" help "${helps[@]}")
+  # shellcheck disable=SC2086
+  for where in clone installed; do beside $where ${everything[*]}; done
+  wait
+  for where in clone installed; do
+    cat "$work/$where.said"
+    read -r good bad <"$work/$where.counts" || good=0 bad=1
+    passed=$((passed + good)) failed=$((failed + bad))
+  done
   count 'every exception fits something' every_exception_fits
-  judge_pages
-fi
+  ;;
+*) for where in clone installed; do run_pages $where "$@"; done ;;
+esac
+case ${1:-} in '' | --all) judge_pages ;; esac
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Runs test programs (arguments) and the scripts tests/ROOM/run.sh, run_*.sh, JOBS at a time, and sums up.
+# Runs test programs and scripts (arguments, PROGRAM or PROGRAM:ARGUMENT), JOBS at a time, and sums up.
 # The last line is "N passed, N failed"; the exit status is 0 only when nothing failed.
 # Environment: OUT (build folder), JOBS, BUILD_STATUS (non-zero: something did not build),
-# TEST_WRAPPER (a command put before each program), TEST_TIMEOUT in seconds.
+# TEST_WRAPPER (a command put before each program), TEST_TIMEOUT in seconds, COUNTS (a file that gets
+# a line "passed failed").
 set -u
 out=${OUT:-build}
 logs=$out/logs
@@ -22,9 +23,10 @@ if command -v localedef >/dev/null 2>&1; then
 fi
 
 run_one() {
-  local name=${1//\//_} begin=$SECONDS status=0
+  local name=${1//\//_} begin=$SECONDS status=0 argument=
+  case $1 in *:*) argument=${1#*:} ;; esac
   # shellcheck disable=SC2086
-  timeout "$TEST_TIMEOUT" $TEST_WRAPPER "$1" >"$logs/$name.log" 2>&1 </dev/null || status=$?
+  timeout "$TEST_TIMEOUT" $TEST_WRAPPER "${1%%:*}" $argument >"$logs/$name.log" 2>&1 </dev/null || status=$?
   echo "$status" >"$logs/$name.status"
   local word=ok
   [ "$status" = 0 ] || word=FAILED
@@ -33,18 +35,17 @@ run_one() {
 export -f run_one
 
 programs=("$@")
-[ -x "$out/ambulo" ] && programs+=(tests/*/run.sh tests/*/run_*.sh)
 # commands of the docs are about what users build, which is no variant of the compiler's
 case ${MODE:-} in *-fsanitize=* | *--coverage*)
   for i in "${!programs[@]}"; do
-    [ "${programs[i]}" != tests/docs/run.sh ] || unset "programs[i]"
+    case ${programs[i]} in tests/docs/*) unset "programs[i]" ;; esac
   done
   echo 'skipped with the compiler instrumenting: tests/docs/run.sh'
   ;;
 esac
 present=() missing=()
 for program in "${programs[@]}"; do
-  if [ -x "$program" ]; then present+=("$program"); else missing+=("$program"); fi
+  if [ -x "${program%%:*}" ]; then present+=("$program"); else missing+=("$program"); fi
 done
 [ ${#present[@]} = 0 ] || printf '%s\0' "${present[@]}" | xargs -0 -r -n1 -P "${JOBS:-1}" bash -c 'run_one "$1"' run_one
 
@@ -82,5 +83,6 @@ if [ "${BUILD_STATUS:-0}" != 0 ] && [ ${#missing[@]} = 0 ]; then
   echo 'the build failed; programs of an earlier build were run'
   failed=$((failed + 1))
 fi
+[ -z "${COUNTS:-}" ] || echo "$passed $failed" >>"$COUNTS"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

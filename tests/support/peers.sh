@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What comparisons with other programs begin with. Sourced by tests/exchange/run_import.sh and tests/exchange/run_export.sh,
+# What comparisons with other programs begin with. Sourced by tests/exchange/long_import.sh and tests/exchange/long_export.sh,
 # from the folder that the tests are run from; AMBULO, AMBULO_PYTHON name another program, another Python.
 
 # peers WHAT: sets ambulo (its path), python and scratch, a folder that goes at the end, in which

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2154
-# Sourced by run.sh: pages of tasks in a browser, headless, in the frames of one page.
+# Sourced by long.sh: pages of tasks in a browser, headless, in the frames of one page.
 # browser_checks NAME...: NAME.html of the present folder is the page of the problem NAME.
 browser_checks() {
   local browser='' name running results line

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # A walk that was measured, with the model it was measured with, beside the model's predicted walk, and
-# its torques beside OpenSim's. Sourced by run.sh. The files are those of fetch_opensim.sh.
+# its torques beside OpenSim's. Sourced by long.sh. The files are those of fetch_opensim.sh.
 
 # The plates: the right foot strikes at 0.267 and 1.4115 s, the left one at 0.836 s. The record lasts from
 # 0.45 to 1.799 s: more than a stride, but not from one strike of a foot to the next.

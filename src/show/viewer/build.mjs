@@ -14,7 +14,7 @@ const bundle = async (entry) => (await build({
 
 const packed = (text) => deflateRawSync(text, { level: 9, memLevel: 9 }).toString("base64");
 
-// by this number tests/show/run_page.sh knows a page that is older than its sources
+// by this number tests/show/long_page.sh knows a page that is older than its sources
 const sources = readdirSync(new URL(".", import.meta.url))
   .filter((name) => /\.(js|mjs|css|html|json)$/.test(name)).sort();
 const digest = createHash("sha256").update(sources.map(read).join("")).digest("hex");

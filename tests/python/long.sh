@@ -17,7 +17,7 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-python-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 skip() {
   echo "[  SKIPPED ]"
-  echo "skipped: tests/python/run.sh: $1"
+  echo "skipped: tests/python/long.sh: $1"
   exit 0
 }
 export OPENBLAS_NUM_THREADS=1 MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 PYTHONWARNINGS=error::SyntaxWarning
@@ -50,7 +50,7 @@ if "$python" -c 'import venv, ensurepip' 2>/dev/null; then
   if make_environment >"$work/log" 2>&1; then passed=1; else fail 'a wheel in a fresh environment'; fi
   run=("$work/venv/bin/python")
 else
-  echo 'skipped: tests/python/run.sh: no venv: the package is tested without its wheel'
+  echo 'skipped: tests/python/long.sh: no venv: the package is tested without its wheel'
   "$python" src/python/package.py stage "$library" "$work/staged" >"$work/log" 2>&1 ||
     fail 'the package'
   run=(env "PYTHONPATH=$work/staged" "$python")

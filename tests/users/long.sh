@@ -21,7 +21,7 @@ python=${AMBULO_PYTHON:-python3}
 case ${MODE:-} in
 *-fsanitize=* | *--coverage*)
   echo '[  SKIPPED ]'
-  echo 'skipped: tests/users/run.sh: what users do is done with what users build'
+  echo 'skipped: tests/users/long.sh: what users do is done with what users build'
   exit 0
   ;;
 esac
