@@ -70,7 +70,7 @@ function flush(    text, words, w, size, part) {
     if (w % 2 == 0) gsub(/[.!?]/, ",", words[w])
     text = text (w % 2 == 0 ? "`" : "") words[w]
   }
-  gsub(/[*_][*_]?/, "", text)
+  gsub(/[*]+/, "", text)
   # abbreviations and initials end no sentence
   gsub(/e\.g\./, "eg", text)
   gsub(/i\.e\./, "ie", text)

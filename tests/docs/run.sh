@@ -324,7 +324,7 @@ beside() { # WHERE PAGE...
 
 mapfile -t helps < <(sed 's/^/help-/' "$work/commands")
 case ${1:-} in
-'') run_pages installed README.md docs/tutorial-first-hour.md help "${helps[@]}" ;;
+'') run_pages installed README.md docs/tutorial.md help "${helps[@]}" ;;
 --all)
   everything=("$(pages)" help "${helps[@]}")
   # shellcheck disable=SC2086

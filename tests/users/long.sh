@@ -62,8 +62,8 @@ has() { # MODULE WHAT
 }
 optimal() { grep -q '"verdict": "optimal"' "$1/summary.json"; }
 between_too() { ! grep -q 'not between' "$1"; }
-problem_of() { # PAGE FILE: the problem that the page writes, for what it can do
-  sed -n '/^cat >.*_walk.yaml <</,/^END$/p' "$top/docs/$1.md" | sed '1d; $d' >"$2"
+problem_of() { # NAME FILE: the problem NAME.yaml that the tutorial writes
+  sed -n "/^cat >$1.yaml <</,/^END\$/p" "$top/docs/tutorial-import.md" | sed '1d; $d' >"$2"
 }
 imports() {
   "$AMBULO" import "$models/../tests/exchange/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
@@ -92,7 +92,7 @@ opensim() {
   local deviation=0.0001 # m: scene.json has places to 0.1 mm
   [ "$osim" = "$here/walker.osim" ] || deviation=0.003 # knees whose splines are frozen
   check 'import' import_walker "$osim" walker.yaml
-  problem_of tutorial-opensim-model walk.yaml
+  problem_of walker_walk walk.yaml
   check 'check' "$AMBULO" check walk.yaml
   "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
   check 'an imported model walks, from zero' optimal walk
@@ -177,7 +177,7 @@ a_robot_walks() { # URDF PROBLEM
 }
 urdf() {
   imports 'a robot to a trajectory' || return
-  problem_of tutorial-urdf walk.yaml
+  problem_of biped_walk walk.yaml
   a_robot_walks "$here/biped.urdf" walk.yaml
   check 'the small robot keeps to it between the nodes' between_too said
   local real

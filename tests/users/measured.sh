@@ -40,7 +40,7 @@ measured() {
   check 'it is a walk: knees' alike knee_flexion 0.98
   # the model as published walks as fast, in steps as long
   check 'import' import_walker "$data/Rajagopal2016.osim" walker.yaml
-  problem_of tutorial-opensim-model walk.yaml
+  problem_of walker_walk walk.yaml
   "$AMBULO" solve walk.yaml --set gait.speed=1.243 --set gait.step_length=0.711 -o walk --samples 161 >said 2>&1
   check 'its model walks, from zero' optimal walk
   check 'and between the nodes too' between_too said
