@@ -81,9 +81,9 @@ typedef enum ambulo_equalities {
                              with its dense gradient: to compare; much slower. Up to 4 GB */
 } ambulo_equalities;
 
-/* Progress of a solve, given to the callback after every iteration (without presolve, every
- * evaluation that improves), and at least every tenth of a second during set-up, audit and
- * explanation, where the objective or the violation may be NAN: nothing to tell. */
+/* Progress of a solve, given to the callback after every iteration, and at least every tenth
+ * of a second during set-up, audit and explanation, where the objective or the violation may be
+ * NAN: nothing to tell. */
 typedef struct ambulo_progress {
   int iteration, evaluations;
   double objective, violation; /* violation: worst over all rows, relative to their size */
@@ -296,10 +296,10 @@ typedef struct ambulo_iteration {
   double seconds;   /* since the solve began */
 } ambulo_iteration;
 
-/* The way of a solve: of AUGLAG a point for each iteration, of SLSQP one for each call of NLopt,
- * without presolve one for each evaluation that improves, grid by grid from the coarsest on; the
- * last is the point that is returned, as the audit finds it. Bounded: of a long solve one in so
- * many of each grid, and the last of each grid. But for `seconds` the same in every run. */
+/* The way of a solve: a point for each inner solve of AUGLAG, or for each call of NLopt where it is
+ * handed every row, grid by grid from the coarsest on; the last is the point that is returned, as
+ * the audit finds it. Bounded: of a long solve one in so many of each grid, and the last of each
+ * grid. But for `seconds` the same in every run. */
 typedef struct ambulo_history {
   const ambulo_iteration *items;
   int count;        /* 0: no solver ran */

@@ -42,8 +42,7 @@
 #include "method/chart.h"
 #include "method/mirror.h"
 #include "method/model_step.h"
-#include "method/nlopt_direct.h"
-#include "method/nlopt_memory.h"
+#include "method/nlopt_facts.h"
 #include "method/parameters.h"
 
 #include <math.h>
@@ -220,7 +219,8 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
   if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
-  double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(held->objective));
+  double least = AMBULO__GRADIENT_NONE * e->run->options->optimality_tolerance *
+                 fmax(1.0, fabs(held->objective));
   if (held->value < HUGE_VAL && held->gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);
   take_rows(s);

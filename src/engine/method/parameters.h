@@ -101,14 +101,14 @@
 /* evaluations of L-BFGS between two model steps. Half: +50 % iterations, -14 % evaluations,
  * yardstick_72 +2 % of the objective; double: +70 % evaluations, +31 % CPU. T: pipeline. */
 #define AMBULO__INNER_EVALUATIONS 8
-/* pairs that L-BFGS keeps, here and in nlopt_direct.c: more than an inner solve has evaluations, so
+/* pairs that L-BFGS keeps, here and in direct.c: more than an inner solve has evaluations, so
  * that it forgets none; n doubles each. x: no change. T: pipeline (1). */
 #define AMBULO__STORED_VECTORS 20
 /* relative change of the value that ends an inner solve: rounding. x: free. T: pipeline. */
 #define AMBULO__INNER_VALUE 1e-12
-/* whitened gradient, of max(1, |f|), that counts as zero: below the gradient's own accuracy line
- * searches fail. x: free; 0: +2 % evaluations. T: pipeline. */
-#define AMBULO__GRADIENT_NONE 5e-6
+/* the same that counts as zero: below the gradient's own accuracy line searches fail. x: free; 0:
+ * +2 % evaluations. T: pipeline. */
+#define AMBULO__GRADIENT_NONE (AMBULO__GRADIENT_SMALL / 6.0)
 
 /* --------------------------------------------------------- model step (model_step.c, chart.c) */
 
@@ -186,12 +186,13 @@
 /* relative change of f that is progress. x: no change. Never: a step that is too long takes 57
  * iterations, not 65, a torque that is too weak 50, not 150. T: stopping. */
 #define AMBULO__VALUE_MOVING 1e-3
-/* share of the least violation so far that is progress (here and in nlopt_whitened.c); and the one
+/* share of the least violation so far that is progress (here and in direct.c); and the one
  * that shows that rows give way. x: no change. T: stopping, both. */
 #define AMBULO__VIOLATION_BETTER 0.9
 #define AMBULO__VIOLATION_HALVED 0.5
-/* whitened gradient, of max(1, |f|): six times GRADIENT_NONE. x: free. T: stopping. */
-#define AMBULO__GRADIENT_SMALL 3e-5
+/* of the optimality tolerance: whitened gradient, of max(1, |f|), that is small. x: free. T:
+ * stopping. */
+#define AMBULO__GRADIENT_SMALL 0.03
 /* violation, relative to the rows' sizes, where f may settle and polishing may start.
  * 0: walk_normal with a tolerance of 1e-9 takes 14 to 39 iterations.
  * T: stopping, pipeline. */
@@ -263,40 +264,23 @@
  * walk_tracking from noise of 0.2 rad takes 29 to 188 iterations. T: smooth. */
 #define AMBULO__ROUGH_KEPT 0.5
 
-/* -------------------------------------------- SLSQP on small problems (nlopt_whitened.c) */
+/* ------------------------------------------- every row handed to NLopt (direct.c) */
 
-/* evaluations of a round: walker_2d_step needs 130, two_link_reach 49. */
-#define AMBULO__ROUND_EVALUATIONS 300
-/* the same of AUGLAG, whose multipliers begin at zero in each: with 300 two_link_reach by
- * `equalities: nlopt` is not solved. */
-#define AMBULO__AUGLAG_ROUND 3000
-/* rounds without progress. x: -2 %, +1 % iterations of an infeasible task. T:
- * nlopt_direct (never). */
-#define AMBULO__ROUNDS_IDLE 5
-/* relative change of the objective that ends them. x: no change. */
-#define AMBULO__ROUNDS_SETTLED 1e-8
-
-/* ----------------------- NLopt on rows as they are or whitened (nlopt_direct.c, nlopt_plain.c) */
-
-/* given to NLopt: tolerance of scaled rows; relative, of value and point; both of AUGLAG's inner
- * solver. x: free. */
-#define AMBULO__DIRECT_ROW 1e-9
-#define AMBULO__DIRECT_VALUE 1e-11
-#define AMBULO__DIRECT_POINT 1e-11
-#define AMBULO__DIRECT_INNER 1e-9
-/* bytes: dense work of SLSQP beyond which a problem is refused. */
-#define AMBULO__DIRECT_MEMORY 4e9
-/* row unit: value of rows at points that are given up. x: no change. */
-#define AMBULO__DIRECT_FAILED_ROW 1e3
-/* of the feasibility tolerance: a first stage ends there, well inside. x: no change. */
-#define AMBULO__DIRECT_REACHED 0.1
-/* calls of the first stage and evaluations of each; evaluations of a call that improves.
- * x: no change. */
+/* evaluations of a call of SLSQP: more than any needs (plain walker_2d_step 880 in all). */
+#define AMBULO__CALL_EVALUATIONS 1500
+/* calls and evaluations of each that carry a plain start onto the rows. x: no change. */
 #define AMBULO__REACH_CALLS 8
 #define AMBULO__REACH_EVALUATIONS 120
-#define AMBULO__CALL_EVALUATIONS 1500
-/* relative gain of a call after which there is none more. x: no change. */
-#define AMBULO__PLAIN_SETTLED 1e-7
+/* calls without progress. x: -2 %, +1 % iterations of an infeasible task. T: direct (never). */
+#define AMBULO__CALLS_IDLE 5
+/* relative change of the objective that ends calls. x: no change. */
+#define AMBULO__CALLS_SETTLED 1e-8
+/* given to NLopt: relative, of value and point; of scaled rows, and of AUGLAG's inner solver in
+ * both senses. x: free. */
+#define AMBULO__DIRECT_TOLERANCE 1e-11
+#define AMBULO__DIRECT_ROW 1e-9
+/* bytes: dense work of SLSQP beyond which a problem is refused. */
+#define AMBULO__DIRECT_MEMORY 4e9
 
 /* ---------------------------------------------------------- dependent rows (presolve_rank.c) */
 

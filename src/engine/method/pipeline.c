@@ -10,8 +10,8 @@
  *
  * Reading order: engine.h, rows_split.h, metric.h, engine_point.h, pipeline.c, restore.c,
  * balance.h, auglag.c, chart.h, mirror.h, model_step.c, augmented.c, retraction.c, stopping.h,
- * polish.c; refine.c and carry.h around it. Besides: nlopt_whitened.c and nlopt_plain.c with
- * nlopt_direct.h, smooth.h.
+ * polish.c; refine.c and carry.h around it. Besides: direct.h,
+ * smooth.h.
  */
 #include "method/pipeline.h"
 #include "method/auglag.h"

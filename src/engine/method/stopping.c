@@ -23,11 +23,12 @@ static int has_vanished(const ambulo__engine *e, const ambulo__stopping *s) {
 
 /* follows the point; whether its objective has settled, and how */
 static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double tolerance) {
+  const ambulo_options *o = e->run->options;
   const ambulo__trial *point = &e->reached;
   double change = fabs(point->objective - s->objective), violation = point->violation;
   double relative = s->loose ? AMBULO__COARSE_CHANGE : AMBULO__VALUE_CHANGE;
   int steady = change <= relative * fabs(point->objective);
-  double enough = s->loose ? AMBULO__COARSE_GRADIENT : AMBULO__GRADIENT_SMALL;
+  double enough = s->loose ? AMBULO__COARSE_GRADIENT : AMBULO__GRADIENT_SMALL * o->optimality_tolerance;
   int small = point->gradient_norm <= enough * fmax(1.0, fabs(point->objective));
   int near = violation <= fmax(tolerance, AMBULO__NEAR_VIOLATION);
   s->settled = near && steady ? s->settled + 1 : 0;

@@ -1,10 +1,10 @@
 /* solver/solver.c - a solve from one start: which method, from which start, and which point is the
  * best.
  *
- *   presolve off     NLopt's SLSQP or AUGLAG on the rows as they are     (nlopt_plain.c)
- *   small problems   SLSQP in whitened coordinates                       (nlopt_whitened.c)
- *   otherwise        NLopt's AUGLAG on the equalities' surface           (pipeline.c),
+ *   usually          NLopt's AUGLAG on the equalities' surface           (pipeline.c),
  *                    from coarser grids when it starts at zero           (refine.c)
+ *   if asked for, or for rows that span the grid: NLopt's SLSQP or AUGLAG on every row, whitened
+ *                    or, without presolve, as they are                   (direct.c)
  *
  * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
@@ -14,21 +14,16 @@
  * audit_point.c; what they call: method/pipeline.c, method/refine.c, solver/audit.c.
  */
 #include "solver/session.h"
-#include "method/nlopt_direct.h"
+#include "method/direct.h"
 #include "method/pipeline.h"
 #include "method/refine.h"
 #include "method/smooth.h"
 #include "problem/problem.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum {
-  SMALL = 60,      /* unknowns: SLSQP first */
-  SMALL_ROUNDS = 8 /* of it, before AUGLAG takes over what has not settled */
-};
 static const double near_rows = 1e-3; /* relative to their sizes */
 
 /* ---------------------------------------------------------------- strategies */
@@ -73,36 +68,17 @@ static ambulo_status solve_by_pipeline(ambulo__session *s) {
   return status;
 }
 
-static ambulo_status solve_small(ambulo__session *s, ambulo_algorithm algorithm, int most) {
-  s->method = algorithm == AMBULO_SLSQP ? "NLopt's SLSQP, whitened"
-                                        : "NLopt's AUGLAG with LBFGS, whitened, all rows";
-  if (most > s->run.options->maximum_iterations) most = s->run.options->maximum_iterations;
-  return ambulo__solve_whitened(s->engine, algorithm, most, s->diagnostics, s->result->x,
-                                &s->nlopt);
-}
-
-static ambulo_status solve_presolved(ambulo__session *s) {
-  const ambulo_options *o = s->run.options;
-  int small = s->problem->variables < SMALL;
-  if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP, INT_MAX);
-  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->setup->rows->regular;
-  if (all_rows) return solve_small(s, AMBULO_AUGLAG, INT_MAX);
-  if (o->algorithm == AMBULO_AUGLAG || !small) return solve_by_pipeline(s);
-  ambulo_status status = solve_small(s, AMBULO_SLSQP, SMALL_ROUNDS);
-  if (status || s->run.stopped || s->run.ending == AMBULO_ENDING_SETTLED) return status;
-  ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
-  s->nlopt = NULL;
-  return solve_by_pipeline(s);
-}
-
 static ambulo_status solve_problem(ambulo__session *s) {
   const ambulo_options *o = s->run.options;
+  int slsqp = o->algorithm == AMBULO_SLSQP || (!o->presolve && o->algorithm != AMBULO_AUGLAG);
+  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->setup->rows->regular;
   s->nlopt = NULL;
-  if (o->presolve) return solve_presolved(s);
-  ambulo_algorithm algorithm = o->algorithm == AMBULO_AUGLAG ? AMBULO_AUGLAG : AMBULO_SLSQP;
-  s->method =
-      algorithm == AMBULO_AUGLAG ? "NLopt's AUGLAG with LBFGS, plain" : "NLopt's SLSQP, plain";
-  return ambulo__solve_plain(s->engine, algorithm, s->diagnostics, s->result->x, &s->nlopt);
+  if (o->presolve && !slsqp && !all_rows) return solve_by_pipeline(s);
+  s->method = slsqp         ? o->presolve ? "NLopt's SLSQP, whitened" : "NLopt's SLSQP, plain"
+              : o->presolve ? "NLopt's AUGLAG with LBFGS, whitened, all rows"
+                            : "NLopt's AUGLAG with LBFGS, plain";
+  return ambulo__solve_direct(s->engine, slsqp ? AMBULO_SLSQP : AMBULO_AUGLAG, !o->presolve,
+                              s->diagnostics, s->result->x, &s->nlopt);
 }
 
 /* an attempt from where result->x stands; what it finds joins the candidates */

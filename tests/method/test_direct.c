@@ -1,9 +1,7 @@
-/* NLopt's plain algorithms on small problems; an analytic one through user callbacks. */
-#include "method/nlopt_direct.h"
+/* Every row to NLopt: small problems, whitened and plain; an analytic one by callbacks. */
+#include "method/direct.h"
 #include "support/arm.h"
 #include "support/engine_fixture.h"
-
-#include <nlopt.h>
 
 static double solve(const char *name, ambulo_algorithm algorithm, int presolve) {
   ambulo_problem *problem = load_problem(name);
@@ -163,27 +161,6 @@ static void analytic_optimum_is_found(void **state) {
   analytic_problem(AMBULO_AUTO, 1);
 }
 
-static void results_have_names(void **state) {
-  (void)state;
-  static const struct {
-    int result;
-    const char *name;
-  } names[] = {{NLOPT_FAILURE, "FAILURE"},
-               {NLOPT_INVALID_ARGS, "INVALID_ARGS"},
-               {NLOPT_OUT_OF_MEMORY, "OUT_OF_MEMORY"},
-               {NLOPT_ROUNDOFF_LIMITED, "ROUNDOFF_LIMITED"},
-               {NLOPT_FORCED_STOP, "FORCED_STOP"},
-               {NLOPT_SUCCESS, "SUCCESS"},
-               {NLOPT_STOPVAL_REACHED, "STOPVAL_REACHED"},
-               {NLOPT_FTOL_REACHED, "FTOL_REACHED"},
-               {NLOPT_XTOL_REACHED, "XTOL_REACHED"},
-               {NLOPT_MAXEVAL_REACHED, "MAXEVAL_REACHED"},
-               {NLOPT_MAXTIME_REACHED, "MAXTIME_REACHED"},
-               {77, "unknown result"}};
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-    assert_string_equal(ambulo__nlopt_name(names[i].result), names[i].name);
-}
-
 /* one call that improves is allowed, and more would be made; what was not finite is forgiven */
 static void calls_are_limited(void **state) {
   (void)state;
@@ -194,7 +171,8 @@ static void calls_are_limited(void **state) {
     engine_open(&f, "two_link_reach");
     f.options.maximum_iterations = 0;
     f.run.faults_lately = 3;
-    assert_int_equal(ambulo__solve_plain(f.engine, algorithms[i], NULL, f.x, &message), AMBULO_OK);
+    assert_int_equal(ambulo__solve_direct(f.engine, algorithms[i], 1, NULL, f.x, &message),
+                     AMBULO_OK);
     assert_int_equal(f.run.ending, AMBULO_ENDING_ITERATIONS);
     assert_int_equal(f.run.faults_lately, 0);
     /* the way to the rows is found all the same */
@@ -209,20 +187,17 @@ static void what_nlopt_cannot_do_is_not_asked(void **state) {
   (void)state;
   engine_fixture f;
   engine_open(&f, "two_link_reach");
-  ambulo__engine *e = f.engine;
-  ambulo__direct d = {.problem = f.problem, .workspace = e->workspace, .run = &f.run};
-  d.sets = 1;
-  d.set[0] = &e->linearized.rows.inequality;
-  d.is_equality[0] = 1;
-  assert_true(e->setup->inequalities >= f.problem->variables);
-  assert_int_equal(ambulo__direct_create(&d, &e->pool), AMBULO_OK);
+  ambulo__setup setup = *f.engine->setup;
+  ambulo__direct d;
+  assert_int_equal(ambulo__direct_create(f.engine, 1, &d), AMBULO_OK);
+  f.engine->setup = &setup;
+  d.set[0] = d.set[2];
+  assert_true(setup.inequalities >= setup.n);
   assert_int_equal(ambulo__direct_minimize(&d, AMBULO_SLSQP, 10), AMBULO_OK);
   assert_string_equal(d.message, "not called: as many equality rows as unknowns");
   assert_int_equal(f.run.nlopt.calls, 0);
-  int variables = f.problem->variables;
-  f.problem->variables = 12000; /* 4 n^2 doubles are 4.6 GB */
+  setup.n = 12000; /* 4 n^2 doubles are 4.6 GB */
   assert_int_equal(ambulo__direct_minimize(&d, AMBULO_SLSQP, 10), AMBULO_E_LIMIT);
-  f.problem->variables = variables;
   engine_close(&f);
 }
 
@@ -234,7 +209,8 @@ static void rounds_are_limited(void **state) {
     engine_fixture f;
     const char *message = "";
     engine_open(&f, "two_link_reach");
-    assert_int_equal(ambulo__solve_whitened(f.engine, AMBULO_SLSQP, most, NULL, f.x, &message),
+    f.options.maximum_iterations = most;
+    assert_int_equal(ambulo__solve_direct(f.engine, AMBULO_SLSQP, 0, NULL, f.x, &message),
                      AMBULO_OK);
     assert_int_equal(f.run.ending, AMBULO_ENDING_ITERATIONS);
     assert_int_equal(f.run.nlopt.calls, most);
@@ -251,7 +227,8 @@ static void the_algorithm_has_the_last_word(void **state) {
   const char *message = "";
   engine_open(&f, "two_link_reach");
   f.options.maximum_iterations = 1;
-  assert_int_equal(ambulo__solve_plain(f.engine, AMBULO_AUGLAG, NULL, f.x, &message), AMBULO_OK);
+  assert_int_equal(ambulo__solve_direct(f.engine, AMBULO_AUGLAG, 1, NULL, f.x, &message),
+                   AMBULO_OK);
   assert_string_not_equal(message, "FORCED_STOP");
   assert_string_not_equal(message, "not called");
   engine_close(&f);
@@ -282,7 +259,7 @@ static void without_a_value_there_is_no_descent(void **state) {
   ambulo__run_begin(&f.run, &f.options);
   assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
   is_lost = 1;
-  assert_int_equal(ambulo__solve_plain(f.engine, AMBULO_SLSQP, NULL, f.x, &message), AMBULO_OK);
+  assert_int_equal(ambulo__solve_direct(f.engine, AMBULO_SLSQP, 1, NULL, f.x, &message), AMBULO_OK);
   assert_int_equal(f.run.ending, AMBULO_ENDING_NO_DESCENT);
   assert_true(f.run.faults > 0 && f.x[1] == 0.25);
   engine_close(&f);
@@ -295,8 +272,7 @@ static void rounds_without_progress_end(void **state) {
   engine_fixture f;
   const char *message = "";
   engine_open(&f, "../tests/infeasible/torque_too_weak");
-  assert_int_equal(ambulo__solve_whitened(f.engine, AMBULO_SLSQP, 100, NULL, f.x, &message),
-                   AMBULO_OK);
+  assert_int_equal(ambulo__solve_direct(f.engine, AMBULO_SLSQP, 0, NULL, f.x, &message), AMBULO_OK);
   assert_int_equal(f.run.ending, AMBULO_ENDING_STALLED);
   assert_true(f.run.nlopt.calls < 60);
   engine_close(&f);
@@ -310,7 +286,6 @@ int main(void) {
                                      cmocka_unit_test(every_way_ends_a_step_as_shipped),
                                      cmocka_unit_test(auglag_finds_a_gait),
                                      cmocka_unit_test(analytic_optimum_is_found),
-                                     cmocka_unit_test(results_have_names),
                                      cmocka_unit_test(calls_are_limited),
                                      cmocka_unit_test(the_algorithm_has_the_last_word),
                                      cmocka_unit_test(without_a_value_there_is_no_descent),

@@ -1,6 +1,10 @@
-/* method/nlopt_memory.h - keeping NLopt 2.7.1 away from copies that it has no memory for. */
-#ifndef AMBULO_METHOD_NLOPT_MEMORY_H
-#define AMBULO_METHOD_NLOPT_MEMORY_H
+/* method/nlopt_facts.h - names of NLopt's results, and keeping NLopt 2.7.1 away from copies that it
+ * has no memory for. */
+#ifndef AMBULO_METHOD_NLOPT_FACTS_H
+#define AMBULO_METHOD_NLOPT_FACTS_H
+
+/* NLopt's name of its result, without the prefix. */
+const char *ambulo__nlopt_name(int result);
 
 /* nlopt_set_local_optimizer copies its argument (nlopt_copy) into one small block and three of n
  * doubles without looking at what malloc returns for them: without memory the process dies. 1 when
