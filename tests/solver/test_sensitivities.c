@@ -11,7 +11,7 @@ static ambulo_options tight(const ambulo_problem *problem) {
   options.feasibility_tolerance = 1e-10;
   options.maximum_iterations = 1000;
   options.dense_samples = 1;
-  if (ambulo_problem_variable_count(problem) < 60) options.algorithm = AMBULO_SLSQP; /* to rounding */
+  if (problem->variables < 60) options.algorithm = AMBULO_SLSQP; /* to rounding */
   return options;
 }
 
