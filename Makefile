@@ -110,7 +110,7 @@ TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
 BENCH_SOURCES := $(sort $(wildcard bench/bench_*.c))
 BENCHES := $(patsubst %.c,$(OUT)/%,$(BENCH_SOURCES))
-HEADERS := $(sort $(wildcard include/ambulo/*.h))
+HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -345,7 +345,7 @@ coverage: build/.ready-test
 # -------------------------------------------------------------------- lint
 
 LINT := format static order size symbols callers mirror headers interface equations reading keys words leftovers
-FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
+FORMATTED = $(wildcard include/ambulo/*.h include/ambulo/tools/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))

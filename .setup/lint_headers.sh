@@ -4,8 +4,8 @@ set -u
 cc=${CC:-cc} bad=0
 case $cc in *clang*) cxx=${cc/clang/clang++} ;; *gcc*) cxx=${cc/gcc/g++} ;; *) cxx=c++ ;; esac
 warnings='-Wall -Wextra -Wpedantic -Wshadow -Werror'
-for header in include/ambulo/*.h; do
-  name=ambulo/${header##*/}
+for header in include/ambulo/*.h include/ambulo/tools/*.h; do
+  name=${header#include/}
   # shellcheck disable=SC2086
   printf '#include "%s"\n#include "%s"\nint main(void) { return 0; }\n' "$name" "$name" |
     $cc -std=c11 $warnings -Wstrict-prototypes -Iinclude -fsyntax-only -x c - ||

@@ -8,7 +8,7 @@
 # What the library fills itself, and what has no size, is listed below with the reason.
 set -u
 folder=${1:-include/ambulo}
-cat "$folder"/*.h | awk '
+cat "$folder"/*.h "$folder"/tools/*.h | awk '
   # 0 means something here: success; nothing was judged, no solver ran
   BEGIN { split("ambulo_status ambulo_verdict ambulo_ending", names, " "); for (i in names) listed[names[i]] = 1
     # filled by the library and handed back to it

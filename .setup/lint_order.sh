@@ -54,7 +54,11 @@ while IFS=: read -r file line text; do
   *'"ambulo/'*) ;;
   *) fault "$file:$line: a public header includes a private one" ;;
   esac
-done < <(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' include/ambulo/*.h)
+done < <(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' include/ambulo/*.h include/ambulo/tools/*.h)
+# the engine knows none of the tools
+while IFS=: read -r file line text; do
+  fault "$file:$line: the engine includes a header of the tools"
+done < <(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"ambulo/tools/' include/ambulo/*.h src/engine/*/*.[ch])
 
 # ----------------------------------------------------------------- symbols
 

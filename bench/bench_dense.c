@@ -6,6 +6,7 @@
  * 2. For each family that fails and has settings: the problem solved again with those settings, and
  *    whether the family then holds. Ends with 1 if one does not. */
 #include "bench.h"
+#include "ambulo/tools/load.h"
 
 enum { MOST_SETTINGS = 6, TEXT = 512, GRIDS = 3, MOST_FAMILIES = 32 };
 

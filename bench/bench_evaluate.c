@@ -5,6 +5,7 @@
  * nothing is cached; the time of all three per node, and the power of N it grows with. Then, at N =
  * 72, the same with families of rows switched off. */
 #include "bench_csv.h"
+#include "ambulo/tools/load.h"
 #include "problem/nlp.h"
 
 enum { rounds = 8, repeats = 25, parts = 3, grid_count = 6 };

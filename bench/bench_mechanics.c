@@ -12,6 +12,7 @@
  * the other.
  */
 #include "bench_csv.h"
+#include "ambulo/tools/load.h"
 #include "mechanics/plan.h"
 #include "support/random_model.h"
 

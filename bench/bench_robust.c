@@ -6,6 +6,7 @@
  * 2. The walk with ground reaction from ten postures offset by 0.15 rad (standard deviation).
  * 3. Ten variations of step length, step time, body mass and stature, from zero. */
 #include "bench.h"
+#include "ambulo/tools/load.h"
 
 #include <string.h>
 

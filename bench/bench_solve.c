@@ -7,6 +7,7 @@
  * time grows with; then the small problems by each algorithm, with and without presolve. A case
  * that ends without a feasible point is printed as such, and its time is not recorded. */
 #include "bench_csv.h"
+#include "ambulo/tools/load.h"
 
 static double process_seconds(void) {
   struct timespec now;

@@ -4,6 +4,7 @@
 #define AMBULO_BENCH_FORMULATIONS_BUILD_H
 
 #include "formulations.h"
+#include "ambulo/tools/load.h"
 
 typedef struct start {
   double *x, *q, *qd, *tau; /* of the problem as it is; at its nodes [nodes][d] */

@@ -11,6 +11,7 @@
  * at a generic point row by row, beside the formulas of Table 3 with d = 18, N_p = 8, N_s = 1, N_z
  * = 4 and n = N + 3 control points. */
 #include "bench_csv.h"
+#include "ambulo/tools/load.h"
 
 enum { bases = 3, grids = 3, families = 5, repeats = 3 };
 

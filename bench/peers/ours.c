@@ -9,6 +9,7 @@
  * negative axis, its coordinate is reversed for the peers. Times are of the model without its
  * named points, as the peers have none, and once with them. */
 #include "bench_csv.h"
+#include "ambulo/tools/load.h"
 #include "mechanics/plan.h"
 #include "timing.h"
 

@@ -6,7 +6,7 @@
  * Arguments: a problem whose file takes `subject`, and how many threads. Each case is loaded and
  * solved by one thread alone: nothing is shared but the list, and the numbers are those of one
  * thread. (Thousands of cases are what `ambulo batch` is for: processes that can be killed.) */
-#include <ambulo/ambulo.h>
+#include <ambulo/tools/tools.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

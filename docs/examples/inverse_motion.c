@@ -7,7 +7,7 @@
  * noise of markers. Rates come from the angles by a low-pass filter and a spline, which is what
  * ambulo_inverse_dynamics_motion does with a file; torques are set beside those of the swing that
  * the angles were made of. */
-#include <ambulo/ambulo.h>
+#include <ambulo/tools/tools.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  *
  * The term prices the knees' power, (tau qd)^2; the row keeps the head above a height that the walk
  * would rather leave. Both are compared with differences before anything is solved. */
-#include <ambulo/ambulo.h>
+#include <ambulo/tools/tools.h>
 #include <stdio.h>
 #include <stdlib.h>
 

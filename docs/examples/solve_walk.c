@@ -5,7 +5,7 @@
  *
  * Arguments: a problem file, a folder that is not there yet, and any number of settings. Ctrl-C
  * ends the solve; the best point so far is written all the same. */
-#include <ambulo/ambulo.h>
+#include <ambulo/tools/tools.h>
 #include <signal.h>
 #include <stdio.h>
 

@@ -4,7 +4,7 @@
  *     ./what_it_costs models/walker_2d_step.yaml gait.step_length 0.4 1.1
  *
  * Arguments: a problem, a number of it that may be free, and its bounds in SI units and rad. */
-#include <ambulo/ambulo.h>
+#include <ambulo/tools/tools.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,27 +1,26 @@
-/* ambulo/ambulo.h - Ambulo: prediction of human motion by optimization.
+/* ambulo/ambulo.h - Ambulo: prediction of human motion by optimization. The engine.
  *
- *     model.h      the skeleton (immutable)
- *     mechanics.h  inverse dynamics of given motions, in batches
- *     problem.h    what to minimize, subject to what (immutable)
- *     extend.h     terms and rows added to a problem, one of a file too
- *     evaluate.h   what a problem says of one point: values, gradients, the motion
- *     solve.h      the solver, the verdict and the audit
- *     sensitivity.h  what each number of a problem costs
+ *     status.h       status codes, messages, allocator, structures that callers fill
+ *     model.h        the skeleton (immutable)
+ *     mechanics.h    inverse dynamics of given motions, in batches
+ *     problem.h      what to minimize, subject to what (immutable)
+ *     objective.h    parts of a problem: terms, functions of the caller
+ *     ground.h       parts of a problem: the ground's force, feet in the air
+ *     device.h       parts of a problem: springs, dampers and actuators that the body wears
+ *     hold.h         parts of a problem: what hands hold or push
+ *     collision.h    parts of a problem: capsules, obstacles, places to reach
+ *     extend.h       terms and rows added to a problem
+ *     evaluate.h     a problem at one point: values, gradients, the motion
+ *     solve.h        the solver, the verdict and the audit
+ *     sensitivity.h  derivatives of the optimum by each number of a problem
  *     parameters.h   numbers of a problem that the solver chooses
- *     objective.h  parts of a problem: terms, functions of the caller
- *     ground.h     parts of a problem: the ground's force, feet in the air
- *     hold.h       parts of a problem: what hands hold or push
- *     collision.h  parts of a problem: capsules, obstacles, places to reach
- *     report.h     results on disk, comparison with people
- *     page.h       results to watch, as one HTML file
- *     picture.h    results as pictures: SVG, PDF, PNG
- *     inverse.h    inverse dynamics of motions in files
- *     batch.h      many problems: sweeps
- *     export.h     models and motions for OpenSim, URDF and NumPy
- *     import.h     models of OpenSim, URDF and MuJoCo
- *     status.h     status codes, messages, allocator
  *
- * Lifecycle:  model/problem --load or create--> solve --> result --> report --> free
+ * Promise: these headers are stable. A program that compiles and links with one release does so
+ * with every later release of the same major version (of 0.x: of the same minor version). The
+ * tools around the engine - files, results on disk, pictures, batches, imports - have headers of
+ * their own, ambulo/tools/tools.h and those that it includes. They are outside the promise.
+ *
+ * Lifecycle:  model/problem --load or create--> solve --> result --> free
  *
  * Threads: models and problems may be shared; workspaces, diagnostics and results
  * belong to one thread at a time. The library has no global state, never prints and
@@ -39,25 +38,17 @@
 #define AMBULO_VERSION_PATCH 0
 #define AMBULO_VERSION_STRING "0.2.0"
 
-#include "ambulo/batch.h"
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/evaluate.h"
 #include "ambulo/extend.h"
-#include "ambulo/fit.h"
 #include "ambulo/ground.h"
 #include "ambulo/hold.h"
-#include "ambulo/export.h"
-#include "ambulo/import.h"
-#include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
 #include "ambulo/objective.h"
-#include "ambulo/page.h"
 #include "ambulo/parameters.h"
-#include "ambulo/picture.h"
 #include "ambulo/problem.h"
-#include "ambulo/report.h"
 #include "ambulo/sensitivity.h"
 #include "ambulo/solve.h"
 #include "ambulo/status.h"

@@ -177,41 +177,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_model_create(const ambulo_model_definition *definition, const ambulo_allocator *allocator,
                     ambulo_diagnostics *diagnostics, ambulo_model **model);
 
-/* ---------------------------------------------------------------- from YAML */
-
-/* The person a model is scaled to. */
-typedef enum ambulo_sex {
-  AMBULO_SEX_NOT_SET = 0, /* as in the file */
-  AMBULO_FEMALE,
-  AMBULO_MALE
-} ambulo_sex;
-typedef struct ambulo_subject {
-  size_t size;    /* set by ambulo_subject_default() */
-  double mass;    /* kg; AMBULO_OFF: as in the file */
-  double stature; /* m; AMBULO_OFF: as in the file */
-  ambulo_sex sex;
-} ambulo_subject;
-AMBULO_DEFAULT(ambulo_subject); /* all as in the file */
-
-/* Loads a model file, or text that is already in memory (`name` then stands for
- * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.
- * Errors: E_IO, E_PARSE, E_SCHEMA, E_MODEL, E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load(const char *path,
-                                                            const ambulo_subject *subject,
-                                                            const ambulo_allocator *allocator,
-                                                            ambulo_diagnostics *diagnostics,
-                                                            ambulo_model **model);
-/* ambulo_model_load with values of the file replaced before it is read: overrides[i] is
- * "path=value" ("links[shank_r].body.mass=4.1"; as in a problem's overrides the path may begin with
- * "model."). Errors: also E_ARGUMENT (an override that is none). */
-AMBULO_NODISCARD AMBULO_API ambulo_status
-ambulo_model_load_with(const char *path, const char *const *overrides, int override_count,
-                       const ambulo_subject *subject, const ambulo_allocator *allocator,
-                       ambulo_diagnostics *diagnostics, ambulo_model **model);
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
-    const char *text, size_t length, const char *name, const ambulo_subject *subject,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_model **model);
-
 /* Accepts NULL. */
 AMBULO_API void ambulo_model_free(ambulo_model *model);
 

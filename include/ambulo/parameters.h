@@ -77,15 +77,6 @@ static inline ambulo_parameters ambulo_problem_parameters(const ambulo_problem *
   return usual;
 }
 #endif
-/* The problem of a file with a section `free`, read again as it was then with its free parameters
- * at values [count], SI and rad; nothing of the new problem is free. E_ARGUMENT: nothing is free in
- * this one. Other errors: as ambulo_problem_load. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem *problem,
-                                                            const double *values,
-                                                            const ambulo_allocator *allocator,
-                                                            ambulo_diagnostics *diagnostics,
-                                                            ambulo_problem **at);
-
 /* Finds the best values. `parameters` NULL: those of the file. `options`, `allocator`,
  * `diagnostics` as for ambulo_solve; limits of evaluations and iterations are those of each inner
  * solve, options.time_limit and options.progress those of the whole run. The callback ends the run

@@ -275,29 +275,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
     const ambulo_problem_definition *definition, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
-/* From a file; the model it names is loaded with it and owned by the problem. A name of a model or
- * a reference that is not beside the file is looked for below the folder that the environment calls
- * AMBULO_MODELS, if it is set, which a note says.
- * overrides[i] is "path=value" ("time.intervals=36"), applied before anything is
- * read. Errors: as ambulo_model_load and ambulo_problem_create. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load(
-    const char *path, const char *const *overrides, int override_count,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **problem);
-/* The text of a problem file that is in memory already. */
-typedef struct ambulo_problem_text {
-  size_t size; /* set by ambulo_problem_text_default() */
-  const char *text;
-  size_t length;
-  const char *name;      /* stands for the file in messages */
-  const char *directory; /* where relative file names in the text start; NULL: the current one */
-  const char *const *overrides; /* [override_count] "path=value" */
-  int override_count;
-} ambulo_problem_text;
-AMBULO_DEFAULT(ambulo_problem_text); /* empty */
-AMBULO_NODISCARD AMBULO_API ambulo_status
-ambulo_problem_load_text(const ambulo_problem_text *text, const ambulo_allocator *allocator,
-                         ambulo_diagnostics *diagnostics, ambulo_problem **problem);
-
 AMBULO_API void ambulo_problem_free(ambulo_problem *problem); /* accepts NULL */
 
 /* ------------------------------------------------------------------- queries */

@@ -2,7 +2,7 @@
 #ifndef AMBULO_CLI_BATCH_DRY_RUN_H
 #define AMBULO_CLI_BATCH_DRY_RUN_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 /* Prints the case list and an estimate of time and disk: from the finished cases in `directory`
  * (may be NULL), else from solving the first case once. Returns the exit code. */

@@ -15,7 +15,8 @@
 #include <unistd.h>
 
 #include "ambulo/model.h"
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "cli/format.h"
 
 enum { LINE = 240 };

@@ -2,7 +2,7 @@
 #ifndef AMBULO_CLI_FOOT_LIST_H
 #define AMBULO_CLI_FOOT_LIST_H
 
-#include "ambulo/import.h"
+#include "ambulo/tools/import.h"
 
 enum { AMBULO__CLI_FEET = 2, AMBULO__CLI_FOOT_TEXT = 400 };
 

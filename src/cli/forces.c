@@ -1,5 +1,6 @@
 /* cli/forces.c - see forces.h. */
 #include "cli/forces.h"
+#include "ambulo/tools/load.h"
 
 #include <string.h>
 #include <strings.h>

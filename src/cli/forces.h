@@ -2,7 +2,7 @@
 #ifndef AMBULO_CLI_FORCES_H
 #define AMBULO_CLI_FORCES_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "cli/args.h"
 
 /* Options that ambulo__cli_forces_read reads, for a command's table. */

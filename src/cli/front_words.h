@@ -2,7 +2,7 @@
 #ifndef AMBULO_CLI_FRONT_WORDS_H
 #define AMBULO_CLI_FRONT_WORDS_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 /* Nothing where the folder has no front. */
 void ambulo__cli_print_front(const ambulo_front_census *front);

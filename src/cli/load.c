@@ -1,5 +1,6 @@
 /* cli/load.c - see load.h. */
 #include "cli/load.h"
+#include "ambulo/tools/load.h"
 
 #include <stdlib.h>
 

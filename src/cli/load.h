@@ -2,7 +2,7 @@
 #ifndef AMBULO_CLI_LOAD_H
 #define AMBULO_CLI_LOAD_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "cli/args.h"
 
 /* The option that ambulo__cli_load reads, for a command's table. */

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 /* of the release, as in CITATION.cff (tests/package/long.sh compares them) */
 static const char release_date[] = "2026-11-23";

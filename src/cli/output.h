@@ -2,7 +2,7 @@
 #ifndef AMBULO_CLI_OUTPUT_H
 #define AMBULO_CLI_OUTPUT_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 /* "ambulo: error[CODE]: ..." and an optional hint line. */
 void ambulo__cli_error(const char *code, const char *hint, const char *format, ...)

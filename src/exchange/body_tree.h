@@ -9,7 +9,7 @@
 #ifndef AMBULO_EXCHANGE_BODY_TREE_H
 #define AMBULO_EXCHANGE_BODY_TREE_H
 
-#include "ambulo/import.h"
+#include "ambulo/tools/import.h"
 #include "base/numtext.h"
 #include "exchange/arena.h"
 #include "exchange/mesh.h"

@@ -3,7 +3,7 @@
  * Reading order: bodies.h, osim_text.c, urdf_text.c, motion_source.h, loads.h, device_loads.c,
  * opensim_motion.c, free_base.h, npz_motion.c, npz.h.
  */
-#include "ambulo/export.h"
+#include "ambulo/tools/export.h"
 
 #include <math.h>
 #include <string.h>

@@ -15,7 +15,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "ambulo/import.h"
+#include "ambulo/tools/import.h"
 #include "formats/paths.h"
 #include "base/text_buffer.h"
 #include "exchange/osim.h"

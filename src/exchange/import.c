@@ -3,7 +3,8 @@
  * XML tree -> reader of the format -> body tree -> feet, mirror images -> text, which is read back
  * as a model before anything is written: what an import gives loads.
  */
-#include "ambulo/import.h"
+#include "ambulo/tools/import.h"
+#include "ambulo/tools/load.h"
 
 #include <math.h>
 #include <string.h>

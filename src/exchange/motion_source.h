@@ -1,11 +1,11 @@
 /* exchange/motion_source.h - a motion with its torques and forces, as inverse dynamics has them.
  *
- * Read by ambulo_inverse_dynamics_motion (ambulo/inverse.h), so that what is exported is what
+ * Read by ambulo_inverse_dynamics_motion (ambulo/tools/inverse.h), so that what is exported is what
  * `ambulo inverse` says: units, filters, rates, forces of feet and their points. */
 #ifndef AMBULO_EXCHANGE_MOTION_SOURCE_H
 #define AMBULO_EXCHANGE_MOTION_SOURCE_H
 
-#include "ambulo/inverse.h"
+#include "ambulo/tools/inverse.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
 #include "formats/motion_file.h"

@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-#include "ambulo/ambulo.h"
+#include "ambulo/status.h"
 #include "exchange/markup.h"
 #include "exchange/texts.h"
 

@@ -7,6 +7,7 @@
  * compare_cycles.h.
  */
 #include "people/compare_curve.h"
+#include "ambulo/tools/compare.h"
 #include "base/sized.h"
 #include "people/compare_cycles.h"
 #include "people/compare_doubt.h"

@@ -1,5 +1,6 @@
 /* people/compare_curve.c - see compare_curve.h. */
 #include "people/compare_curve.h"
+#include "ambulo/tools/compare.h"
 
 #include <math.h>
 

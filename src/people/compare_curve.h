@@ -8,6 +8,7 @@
 #define AMBULO_PEOPLE_COMPARE_CURVE_H
 
 #include "people/compare_cycle.h"
+#include "ambulo/tools/compare.h"
 
 typedef struct ambulo__sampler {
   ambulo__cycle *cycle;

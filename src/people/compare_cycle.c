@@ -1,5 +1,6 @@
 /* people/compare_cycle.c - strikes, body mass, and curves over percents (compare_cycle.h). */
 #include "people/compare_cycle.h"
+#include "ambulo/tools/compare.h"
 
 #include <math.h>
 #include <string.h>

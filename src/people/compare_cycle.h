@@ -7,7 +7,8 @@
 #ifndef AMBULO_PEOPLE_COMPARE_CYCLE_H
 #define AMBULO_PEOPLE_COMPARE_CYCLE_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
 #include "people/compare_map.h"
 #include "people/compare_subject.h"
 

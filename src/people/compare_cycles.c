@@ -1,5 +1,6 @@
 /* people/compare_cycles.c - see compare_cycles.h. */
 #include "people/compare_cycles.h"
+#include "ambulo/tools/compare.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,6 +6,7 @@
 #define AMBULO_PEOPLE_COMPARE_CYCLES_H
 
 #include "people/compare_curve.h"
+#include "ambulo/tools/compare.h"
 
 /* Before any work: whether the file of the options may be written. E_IO. */
 ambulo_status ambulo__cycles_check(const char *motion, const char *people,

@@ -10,6 +10,7 @@
  *              2 percent (51 points a cycle) from 4 to 56 percent, the loaded part
  */
 #include "people/compare_score.h"
+#include "ambulo/tools/compare.h"
 
 #include <math.h>
 

@@ -2,7 +2,8 @@
 #ifndef AMBULO_PEOPLE_COMPARE_SCORE_H
 #define AMBULO_PEOPLE_COMPARE_SCORE_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
 #include "people/compare_reference.h"
 
 enum { AMBULO__FINE = 201 }; /* points of a finely sampled cycle: every half percent */

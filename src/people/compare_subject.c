@@ -1,5 +1,6 @@
 /* people/compare_subject.c - see compare_subject.h. */
 #include "people/compare_subject.h"
+#include "ambulo/tools/compare.h"
 
 #include <math.h>
 #include <string.h>

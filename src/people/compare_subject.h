@@ -12,7 +12,8 @@
 #ifndef AMBULO_PEOPLE_COMPARE_SUBJECT_H
 #define AMBULO_PEOPLE_COMPARE_SUBJECT_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
 #include "formats/motion_file.h"
 
 typedef struct ambulo__subject {

@@ -54,10 +54,10 @@ ambulo_status ambulo__force_group_add(ambulo__force_columns *columns, const char
 
 /* ------------------------------------------------------- feet (force_match.c) */
 
-/* Sets the foot of every group: as `map` says (ambulo/inverse.h; NULL: nothing), else by names. A
- * tag fits a foot of the same name, or one of the same side (l, left, r, right) unless it speaks
- * of another part of the body. What fits two, or none while there are feet without columns, is an
- * error that lists the names of the file; a foot without columns and a group without foot are
+/* Sets the foot of every group: as `map` says (ambulo/tools/inverse.h; NULL: nothing), else by
+ * names. A tag fits a foot of the same name, or one of the same side (l, left, r, right) unless it
+ * speaks of another part of the body. What fits two, or none while there are feet without columns,
+ * is an error that lists the names of the file; a foot without columns and a group without foot are
  * doubts. Errors: E_ARGUMENT (map), E_SCHEMA, E_MEMORY. */
 ambulo_status ambulo__force_columns_match(ambulo__force_columns *columns, const ambulo_model *model,
                                           const char *map, ambulo__doubts *doubts);

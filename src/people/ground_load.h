@@ -14,7 +14,7 @@
 #ifndef AMBULO_PEOPLE_GROUND_LOAD_H
 #define AMBULO_PEOPLE_GROUND_LOAD_H
 
-#include "ambulo/inverse.h"
+#include "ambulo/tools/inverse.h"
 #include "people/doubt.h"
 #include "people/force_columns.h"
 

@@ -1,4 +1,4 @@
-/* people/inverse.c - inverse dynamics of a motion file (ambulo/inverse.h).
+/* people/inverse.c - inverse dynamics of a motion file (ambulo/tools/inverse.h).
  *
  * Values, rates and accelerations at the rows of the file give torques and root wrench (M, F) by
  * inverse dynamics, and the zero-moment point on the plane n . r = h by

@@ -1,8 +1,8 @@
-/* people/inverse.h - the inside of an inverse dynamics of a file (ambulo/inverse.h). */
+/* people/inverse.h - the inside of an inverse dynamics of a file (ambulo/tools/inverse.h). */
 #ifndef AMBULO_PEOPLE_INVERSE_H
 #define AMBULO_PEOPLE_INVERSE_H
 
-#include "ambulo/inverse.h"
+#include "ambulo/tools/inverse.h"
 #include "base/alloc.h"
 #include "formats/motion_file.h"
 #include "people/doubt.h"

@@ -74,7 +74,7 @@ def preprocessed(include):
         Path(empty, "math.h").write_text("")
         command = os.environ.get("CC", "cc").split() + [
             "-E", "-P", "-undef", "-nostdinc", "-DAMBULO_DECLARATIONS_ONLY", "-I" + empty, "-I" + str(include),
-            str(Path(include, "ambulo", "ambulo.h")),
+            str(Path(include, "ambulo", "tools", "tools.h")),
         ]
         return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
@@ -136,7 +136,7 @@ def header_comments(include):
     known = {}
     pattern = re.compile(
         r"(/\*(?:(?!\*/).)*\*/\s*\n)?typedef (?:struct|enum) (\w+) \{(.*?)\n?\} \2;", re.S)
-    for header in sorted(Path(include, "ambulo").glob("*.h")):
+    for header in sorted(Path(include, "ambulo").rglob("*.h")):
         for match in pattern.finditer(header.read_text()):
             above = plain(match.group(1)) if match.group(1) else ""
             body = match.group(3)

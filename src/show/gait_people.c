@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
 #include "base/vector.h"
 #include "contact/flight.h"
 #include "model/neutral_pose.h"

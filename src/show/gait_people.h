@@ -8,8 +8,8 @@
  *     line scale (m - shift),  band from scale (m - shift) - 2 |scale| s to ... + 2 |scale| s
  *
  * where scale holds the sign and, for moments, the body mass, and shift is the tilt of a marker
- * frame of the pelvis (ambulo/report.h, pelvic_tilt). The strikes of a motion that repeats go on
- * before and after it. Drawn behind walks alone: what repeats, moves on, strikes with both feet,
+ * frame of the pelvis (ambulo/tools/report.h, pelvic_tilt). The strikes of a motion that repeats go
+ * on before and after it. Drawn behind walks alone: what repeats, moves on, strikes with both feet,
  * and stands on level ground at every time. */
 #ifndef AMBULO_SHOW_GAIT_PEOPLE_H
 #define AMBULO_SHOW_GAIT_PEOPLE_H

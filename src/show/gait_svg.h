@@ -5,7 +5,7 @@
 #ifndef AMBULO_SHOW_GAIT_SVG_H
 #define AMBULO_SHOW_GAIT_SVG_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
 #include "show/gait_people.h"
 #include "show/skeleton.h"

@@ -1,7 +1,7 @@
 /* show/motion_data.c - a person's own motion as data of a page (page.h).
  *
- * Columns, units and doubts are those of inverse dynamics of a file (ambulo/inverse.h), whose table
- * is read; between its rows values go linearly.
+ * Columns, units and doubts are those of inverse dynamics of a file (ambulo/tools/inverse.h), whose
+ * table is read; between its rows values go linearly.
  */
 #include "show/page.h"
 
@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "ambulo/inverse.h"
-#include "ambulo/report.h"
+#include "ambulo/tools/inverse.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "formats/motion_file.h"
 #include "model/model.h"
 #include "show/packed_text.h"

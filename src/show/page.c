@@ -1,4 +1,4 @@
-/* show/page.c - the page: the viewer with data in it (ambulo/page.h).
+/* show/page.c - the page: the viewer with data in it (ambulo/tools/page.h).
  *
  * Reading order: page.h, page.c, result_data.c, script_text.h, packed_text.h, motion_data.c,
  * study_data.c, study_motions.h, case_block.h, case_data.h, case_table.h, motion_pack.h,

@@ -9,7 +9,7 @@
 #ifndef AMBULO_SHOW_PAGE_H
 #define AMBULO_SHOW_PAGE_H
 
-#include "ambulo/page.h"
+#include "ambulo/tools/page.h"
 #include "base/diagnostics.h"
 #include "base/text_buffer.h"
 #include "formats/yaml_node.h"

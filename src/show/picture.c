@@ -1,9 +1,9 @@
-/* show/picture.c - pictures as files (ambulo/picture.h).
+/* show/picture.c - pictures as files (ambulo/tools/picture.h).
  *
  * The order of work is such that nothing is drawn for a file that cannot be written, and nothing
  * converted that is not drawn: name, output, people, drawing, conversion, file.
  */
-#include "ambulo/picture.h"
+#include "ambulo/tools/picture.h"
 
 #include <math.h>
 #include <string.h>

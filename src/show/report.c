@@ -3,7 +3,8 @@
  * Reading order: report.c, summary_json.h, summary_json.c, history_json.h, devices_json.h,
  * holds_json.h, solution_yaml.c, versions.c.
  */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_SHOW_SOLUTION_YAML_H
 #define AMBULO_SHOW_SOLUTION_YAML_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
 
 /* Appends the whole text; ambulo_solution_load() reads it back to the same bits. */

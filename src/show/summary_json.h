@@ -2,7 +2,7 @@
 #ifndef AMBULO_SHOW_SUMMARY_JSON_H
 #define AMBULO_SHOW_SUMMARY_JSON_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
 
 /* Appends the whole text; failures stick to the buffer. */

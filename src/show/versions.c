@@ -1,5 +1,5 @@
 /* show/versions.c - what is running: this library and the ones below it. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #include <nlopt.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #ifndef AMBULO_STUDY_BATCH_LISTING_H
 #define AMBULO_STUDY_BATCH_LISTING_H
 
-#include "ambulo/batch.h"
+#include "ambulo/tools/batch.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
 #include "study/front.h"

@@ -4,7 +4,7 @@
 #define _GNU_SOURCE /* sched_getaffinity */
 #endif
 #include "study/batch_machine.h"
-#include "ambulo/batch.h"
+#include "ambulo/tools/batch.h"
 #include "base/free_memory.h"
 
 #include <unistd.h>

@@ -2,7 +2,7 @@
 #ifndef AMBULO_STUDY_BATCH_WORKER_H
 #define AMBULO_STUDY_BATCH_WORKER_H
 
-#include "ambulo/batch.h"
+#include "ambulo/tools/batch.h"
 #include "base/alloc.h"
 
 #include <sys/types.h>

@@ -24,8 +24,9 @@
 #ifndef AMBULO_STUDY_FIT_H
 #define AMBULO_STUDY_FIT_H
 
-#include "ambulo/fit.h"
-#include "ambulo/report.h"
+#include "ambulo/tools/fit.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
 #include "base/alloc.h"
 #include "people/compare_people.h"
 #include "formats/yaml_node.h"

@@ -1,5 +1,6 @@
 /* study/fit_file.c - reading a fit file (fit.h, docs/guide-fit.md). */
 #include "formats/paths.h"
+#include "ambulo/tools/compare.h"
 #include "formats/read_file.h"
 #include "formats/text_hash.h"
 #include "study/fit.h"

@@ -1,6 +1,6 @@
 /* study/fit_json.c - fit.json (outcome.h; schema: docs/guide-fit.md). Nothing in it depends on the
  * machine or on how often the fit was stopped. */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 #include "study/case_path.h"
 #include "study/fit_outcome.h"
 #include "formats/json_text.h"

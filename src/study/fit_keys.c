@@ -1,6 +1,7 @@
 /* study/fit_keys.c - what the keys of the parameters are by themselves, and whether the problem can
  * be read with what the fit will ask of it (fit.h). */
 #include "ambulo/problem.h"
+#include "ambulo/tools/load.h"
 #include "base/numtext.h"
 #include "formats/text_hash.h"
 #include "formats/read_file.h"

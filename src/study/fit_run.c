@@ -3,7 +3,7 @@
  * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml`
  * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
  * valley that zero does not find. */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 #include "base/sized.h"
 #include "formats/atomic_file.h"
 #include "base/clock.h"

@@ -1,6 +1,6 @@
 /* study/listing_changes.c - see listing_changes.h. */
 #include "study/listing_changes.h"
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 
 #include <stdio.h>
 #include <string.h>

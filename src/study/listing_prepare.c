@@ -1,6 +1,6 @@
 /* study/listing_prepare.c - turning a folder into the batch folder of a sweep, and telling what
  * changed since it was one (listing.h). */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
 #include "formats/atomic_file.h"
 #include "formats/file_steps.h"
 #include "formats/output_check.h"

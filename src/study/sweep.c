@@ -6,7 +6,8 @@
  */
 #include "study/sweep.h"
 #include "ambulo/mechanics.h"
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
 #include "formats/text_hash.h"

@@ -7,7 +7,7 @@
 #ifndef AMBULO_STUDY_SWEEP_H
 #define AMBULO_STUDY_SWEEP_H
 
-#include "ambulo/batch.h"
+#include "ambulo/tools/batch.h"
 #include "base/alloc.h"
 #include "formats/yaml_node.h"
 #include "study/front.h"

@@ -1,5 +1,6 @@
 /* study/sweep_check.c - what makes a case list wrong before anything is computed (sweep.h). */
 #include "ambulo/problem.h"
+#include "ambulo/tools/load.h"
 #include "base/numtext.h"
 #include "formats/text_hash.h"
 #include "study/sweep.h"

@@ -1,5 +1,6 @@
 /* Arguments outside what the headers allow: E_ARGUMENT, and outputs stay as they are. */
 #include "support/arm.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 enum { ROOM = 4000 };

@@ -2,6 +2,7 @@
  * from their default function, and memory comes from the caller's allocator and goes back to it
  * whichever request fails. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"
 

@@ -2,7 +2,7 @@
  * at the k-th request, once or from there on: E_MEMORY and an error in the list, never another
  * status and never silence, and nothing is leaked. What a call returns for which only a hint got
  * lost is as good as ever. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/fail_alloc.h"
 #include "support/gait_folder.h"
 #include "support/walker_result.h"

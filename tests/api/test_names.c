@@ -1,6 +1,7 @@
 /* Empty names of files and folders: told at once, with what the name is of, before anything is read
  * or written; an unset variable of a script is the usual cause. */
 #include "support/arm.h"
+#include "ambulo/tools/tools.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 

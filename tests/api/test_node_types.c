@@ -1,6 +1,6 @@
 /* Every node of every kind of file that is read as YAML, replaced by values of every other type:
  * no crash, and either a legal file or a refusal with a place in it. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "base/numtext.h"
 #include "support/gait_folder.h"
 #include "support/yaml_mutation.h"

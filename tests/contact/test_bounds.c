@@ -2,6 +2,7 @@
  * knee_l (6) are partners with sign +1; pelvis_tz (0) is its own image with sign -1, pelvis_tx (2)
  * travels. */
 #include "contact/bounds.h"
+#include "ambulo/tools/load.h"
 
 #include "support/row_fixture.h"
 

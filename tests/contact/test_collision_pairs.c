@@ -1,6 +1,6 @@
 /* Which capsules of a shipped body are kept apart: neighbours, pairs that overlap as it stands and
  * pairs that never meet are not; the mirror image of a pair is where one step stands for both. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "contact/collision.h"
 #include "support/test.h"
 

@@ -2,7 +2,7 @@
  * their gradients by row, by the reverse sweep and by differences, in any pose; the same after the
  * reader.
  */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "model/neutral_pose.h"
 #include "problem/nlp.h"
 #include "support/test.h"

@@ -1,5 +1,6 @@
 /* What mirrored ends ask of a body and its limits, through ambulo_problem_create. */
 #include "contact/gait.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/planar_walker.h"

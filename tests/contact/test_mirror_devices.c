@@ -1,5 +1,6 @@
 /* Mirror images of devices: twice is once, places are reflections, and what has none is refused. */
 #include "contact/devices.h"
+#include "ambulo/tools/load.h"
 
 #include "model/model.h"
 #include "support/messages.h"

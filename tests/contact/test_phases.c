@@ -1,5 +1,6 @@
 /* Events, and grids that have a node at each: by hand and from the shipped walk. */
 #include "contact/phases.h"
+#include "ambulo/tools/load.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"

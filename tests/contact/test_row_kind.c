@@ -1,6 +1,7 @@
 /* The one table of row kinds: families, units and sizes of every row that a shipped problem or a
  * variant of one has, against lists written out here; and rows of the caller. */
 #include "contact/row_kind.h"
+#include "ambulo/tools/load.h"
 #include "problem/problem.h"
 #include "support/problem_path.h"
 #include "support/engine_fixture.h"

@@ -6,7 +6,7 @@
 #include "support/patched_walker.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 enum { MOST_CONTACTS = 64 };
 

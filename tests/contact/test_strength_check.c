@@ -2,7 +2,7 @@
 #include "support/messages.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 static const char text[] = "ambulo: 1\n"
                            "kind: problem\n"

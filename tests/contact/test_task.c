@@ -1,5 +1,6 @@
 /* What a gait asks of the legs: figures by hand, and the words about a walk that is none. */
 #include "contact/task.h"
+#include "ambulo/tools/load.h"
 #include "model/model.h"
 #include "problem/nlp.h"
 #include "solver/explain.h"

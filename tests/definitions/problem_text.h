@@ -3,6 +3,7 @@
 #define AMBULO_TESTS_PROBLEM_TEXT_H
 
 #include "problem/nlp.h"
+#include "ambulo/tools/load.h"
 #include "support/messages.h"
 
 /* Three lines that every problem of these tests begins with; line 4 is the test's own. */

@@ -2,7 +2,7 @@
 #include "support/messages.h"
 #include "support/scratch.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 static void test_kinds(void **state) {
   ambulo_file_kind kind = AMBULO_FILE_MODEL;

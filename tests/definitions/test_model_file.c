@@ -1,4 +1,5 @@
 #include "support/fail_alloc.h"
+#include "ambulo/tools/load.h"
 #include "support/model_text.h"
 
 #ifndef AMBULO_SOURCE_DIR

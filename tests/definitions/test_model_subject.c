@@ -1,4 +1,5 @@
 #include "support/model_text.h"
+#include "ambulo/tools/load.h"
 
 #define SCALED(subject)                                                                            \
   "ambulo: 1\nname: t\n"                                                                           \

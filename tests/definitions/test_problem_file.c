@@ -1,5 +1,6 @@
 /* Problem files as a whole: headers, overrides, positions, damage, memory. */
 #include "definitions/problem_text.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 
 #define REST "time: {duration: 1, intervals: 4}\nobjective: none\n"

@@ -1,5 +1,6 @@
 /* `free:` of a problem file: what it says, and what it may not say, with its place. */
 #include "definitions/problem_free.h"
+#include "ambulo/tools/load.h"
 #include "definitions/problem_text.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"

@@ -1,5 +1,6 @@
 /* `ground`, `load`, `ground_reaction`, tolerances and clearance. */
 #include "definitions/problem_text.h"
+#include "ambulo/tools/load.h"
 
 #define HEAD "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
 #define REST                                                                                       \

@@ -1,5 +1,6 @@
 /* `objective:`. */
 #include "definitions/problem_text.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 
 #define TIME "time: {duration: 1, intervals: 4}\n"

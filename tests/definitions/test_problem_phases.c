@@ -1,5 +1,6 @@
 /* `gait.phases`: shares of the stride, or functions of the speed. */
 #include "definitions/problem_text.h"
+#include "ambulo/tools/load.h"
 
 #define WALK                                                                                       \
   "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\nobjective: none\n"                         \

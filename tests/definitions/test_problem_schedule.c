@@ -1,5 +1,6 @@
 /* `gait:` and `contacts:`. */
 #include "definitions/problem_text.h"
+#include "ambulo/tools/load.h"
 
 #define HEAD WALKER "objective: none\n"
 #define GAIT "gait: {steps: 2, first_foot: left, step_length: 0.6, "

@@ -1,6 +1,7 @@
 /* `written_for`: bodies of one shape, at one speed number, have one problem in units of the body.
  */
 #include "definitions/problem_text.h"
+#include "ambulo/tools/load.h"
 #include "solver/sensitivity_parameters.h"
 #include "support/scratch.h"
 

@@ -3,6 +3,7 @@
 #include "exchange/bodies.h"
 
 #include "ambulo/mechanics.h"
+#include "ambulo/tools/load.h"
 #include "mechanics/pose.h"
 #include "support/fail_alloc.h"
 #include "support/random_model.h"

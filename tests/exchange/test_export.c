@@ -1,6 +1,7 @@
 /* ambulo_export: models of random trees come back by the import with the same torques; motions;
  * what is refused; files whole or not at all. */
-#include "ambulo/export.h"
+#include "ambulo/tools/export.h"
+#include "ambulo/tools/load.h"
 
 #include <sys/stat.h>
 

@@ -1,5 +1,6 @@
 /* External loads of OpenSim: which table, which columns, which foot. */
 #include "support/fail_alloc.h"
+#include "ambulo/tools/load.h"
 #include "support/import_case.h"
 
 static ambulo_model *body(void) {

@@ -1,5 +1,6 @@
 /* ambulo_import_model: arguments, files whole or not at all, memory that runs out anywhere. */
 #include "support/fail_alloc.h"
+#include "ambulo/tools/load.h"
 #include "support/import_case.h"
 
 static const char *const sources[] = {

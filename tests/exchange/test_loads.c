@@ -1,6 +1,7 @@
 /* What pushes at a body besides the ground under its feet: which columns become which load, on
  * which body, with which sign; and that torques lose them. */
 #include "exchange/loads.h"
+#include "ambulo/tools/load.h"
 
 #include "mechanics/pose.h"
 #include "support/messages.h"

@@ -1,5 +1,5 @@
 /* Motions for OpenSim: coordinates, what acts on feet and hands, and which bodies these are. */
-#include "ambulo/export.h"
+#include "ambulo/tools/export.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/still_walker.h"

@@ -1,6 +1,7 @@
 /* What devices leave to the person, on whole problems: person and devices together are inverse
  * dynamics, nothing outside the body notices, and work adds up. */
 #include "problem/nlp.h"
+#include "ambulo/tools/load.h"
 #include "support/test.h"
 
 #define EXO                                                                                        \

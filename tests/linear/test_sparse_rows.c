@@ -1,5 +1,6 @@
 /* Compressed gradients are the dense ones of the public interface. */
 #include "support/engine_fixture.h"
+#include "ambulo/tools/load.h"
 #include "support/problem_fixture.h"
 
 static void compare(engine_fixture *f, const ambulo__sparse_rows *rows) {

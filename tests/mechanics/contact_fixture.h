@@ -10,6 +10,7 @@
 #include <complex.h>
 
 #include "kernel_fixture.h"
+#include "ambulo/tools/load.h"
 #include "mechanics/plan_layout.h"
 #include "support/contact_reference.h"
 

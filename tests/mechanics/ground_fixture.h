@@ -9,6 +9,7 @@
 #include <complex.h>
 
 #include "kernel_fixture.h"
+#include "ambulo/tools/load.h"
 #include "mechanics/plan_layout.h"
 #include "support/ground_reference.h"
 

@@ -1,5 +1,6 @@
 /* The method on one grid: the yardstick's optimum is met; the last steps leave no violation. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 
 static double solve(double *violation, int *evaluations) {

@@ -1,5 +1,6 @@
 /* Dependent rows are found and named; contradictions are told from copies. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 
 static void flat_soles_and_the_periodic_end_are_dropped(void **state) {

@@ -1,5 +1,6 @@
 /* A copy of a model with the ends of some capsules among its points; which links are neighbours. */
 #include "model/capsule_points.h"
+#include "ambulo/tools/load.h"
 #include "model/neutral_pose.h"
 #include "support/messages.h"
 #include "support/test.h"

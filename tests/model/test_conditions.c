@@ -4,7 +4,7 @@
 #include "support/messages.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Parts of a model that a caller starts from: what has to be given is refused until it is, the rest
  * is neutral. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 typedef struct parts {

@@ -3,7 +3,7 @@
  * of the dynamics: mirrored states have mirrored torques. */
 #include "model/mirror_image.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "definitions/model_file.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"

@@ -1,6 +1,7 @@
 /* The planar OpenSim model: sizes and signs, and that its published motion needs the published
  * ground forces. */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/shared_data.h"

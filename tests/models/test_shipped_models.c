@@ -1,5 +1,5 @@
 /* Every shipped model loads without a word and is what its comments say. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/messages.h"
 #include "support/test.h"
 

@@ -1,6 +1,6 @@
 /* Shipped walks that say that everything else is as in another: with what they name put back they
  * are that other one, to the last number. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/shared_data.h"
 #include "support/test.h"
 

@@ -1,6 +1,6 @@
 /* Whole bodies: with arms, neck and toes at rest they are lower_body_21, whose arms and head are
  * fixed; joints turn to where their names say. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/random_model.h"
 #include "support/test.h"
 

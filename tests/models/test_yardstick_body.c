@@ -1,5 +1,5 @@
 /* The yardstick body against numbers of an independent formulation, and its layout. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "models/yardstick_reference.h"
 #include "support/test.h"
 

@@ -1,7 +1,7 @@
 /* How near a motion comes to what it keeps clear of: by hand as the body stands, over both steps of
  * a mirrored walk, and of a walk that was solved with a margin, between its nodes too. */
 #include "people/approach.h"
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 #include <string.h>

@@ -1,5 +1,7 @@
 /* Whole comparisons: known scores, averaging of the feet, tilt, JSON, memory, published bands. */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"

@@ -1,5 +1,6 @@
 /* Means and deviations over strides and feet; the tilt of a pelvis that is tilted already. */
 #include "people/compare_curve.h"
+#include "ambulo/tools/compare.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"
 #include "support/subject_motion.h"

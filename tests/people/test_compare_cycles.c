@@ -1,6 +1,7 @@
 /* The table of cycles: what it holds, that it is read back as it was, what it is not written over.
  */
 #include "people/compare_cycles.h"
+#include "ambulo/tools/compare.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/subject_motion.h"

@@ -1,6 +1,7 @@
 /* References over part of the cycle or in radians, curves that nobody has, strikes and durations of
  * another motion: each is told; none of it is told about a good comparison. */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
 #include "people/compare_score.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"

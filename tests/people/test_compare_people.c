@@ -1,7 +1,9 @@
 /* The shipped curves of people: what is read of them, their signs, and of which motions they are.
  */
 #include "people/compare_people.h"
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/compare.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"

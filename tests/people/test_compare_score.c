@@ -1,5 +1,6 @@
 /* Scores of curves with known answers, and landmarks of made-up curves. */
 #include "people/compare_score.h"
+#include "ambulo/tools/compare.h"
 #include "support/test.h"
 
 static const ambulo__map_entry entry = {"c", "c", "q.c", 1, 0, 0, AMBULO__UNIT_ANGLE};

@@ -1,5 +1,6 @@
 /* A person's own motion: which strikes count, and what is refused. */
 #include "people/compare_subject.h"
+#include "ambulo/tools/compare.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/subject_motion.h"

@@ -1,6 +1,6 @@
 /* Work of the joints and the path of the centre of mass, against energy and momentum. */
 #include "people/economy.h"
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "mechanics/pose.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"

@@ -1,5 +1,6 @@
 /* Missing components are said, unless the model cannot feel them. */
 #include "people/force_columns.h"
+#include "ambulo/tools/load.h"
 #include "support/arm.h"
 #include "support/messages.h"
 #include "support/model_text.h"

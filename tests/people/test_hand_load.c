@@ -1,5 +1,6 @@
 /* What hands hold, from the columns of a file: on an arm by hand, and all that is doubted. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/inverse_table.h"
 #include "support/scratch.h"

@@ -1,6 +1,7 @@
 /* Impulses of the ground's force: momentum is balanced over a stride, and each foot's share is what
  * a very fine sum gives. */
 #include "people/impulse.h"
+#include "ambulo/tools/load.h"
 #include "people/stride.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"

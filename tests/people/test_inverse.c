@@ -1,5 +1,6 @@
 /* Inverse dynamics of motion files: our own results come back, and where the table goes. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/inverse_table.h"
 #include "support/scratch.h"
 #include "support/walker_result.h"

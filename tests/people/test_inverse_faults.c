@@ -1,7 +1,7 @@
 /* Whatever step on a file or request of memory fails: an inverse dynamics says so, leaves the old
  * table or the whole new one, and nothing besides. */
 #define _GNU_SOURCE
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/fail_alloc.h"
 #include "support/fail_io.h"
 #include "support/messages.h"

@@ -1,6 +1,7 @@
 /* Values, rates and accelerations of a motion file: what the file has is used, in its units; what
  * it lacks is computed. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/inverse_table.h"
 #include "support/scratch.h"
 

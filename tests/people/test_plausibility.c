@@ -1,5 +1,6 @@
 /* What hardly can be meant is doubted, with the option that mends it; what can be is not. */
 #include "support/arm.h"
+#include "ambulo/tools/load.h"
 #include "support/inverse_table.h"
 #include "support/scratch.h"
 

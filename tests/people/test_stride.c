@@ -1,6 +1,7 @@
 /* Strides: sampling, and the mirror image that is the second step: a motion of the same body within
  * the same limits. */
 #include "people/stride.h"
+#include "ambulo/tools/load.h"
 #include "support/walker_result.h"
 
 enum { D = WALKER_COORDINATES };

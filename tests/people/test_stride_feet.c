@@ -1,5 +1,6 @@
 /* Forces on the feet in a mirrored stride: models/walk_normal.yaml at a gentle made-up point. */
 #include "base/text_buffer.h"
+#include "ambulo/tools/load.h"
 #include "formats/motion_csv.h"
 #include "people/stride.h"
 #include "support/test.h"

@@ -5,7 +5,7 @@
 
 #include "people/stride.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 typedef struct waving_stride {

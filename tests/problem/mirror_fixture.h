@@ -5,7 +5,7 @@
 
 #include "problem/mirror_terms.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "model/model.h"
 #include "model/neutral_pose.h"
 #include "support/fail_alloc.h"

@@ -1,5 +1,6 @@
 /* Every number of a definition built in code: what is not finite, or absurd, is refused by name. */
 #include "model/model.h"
+#include "ambulo/tools/load.h"
 #include "support/messages.h"
 #include "support/problem_fixture.h"
 

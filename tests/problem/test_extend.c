@@ -1,6 +1,7 @@
 /* Terms and rows of the caller on a problem of a file: it is the problem whose file says the same,
  * and all that the file gave stays, free parameters too. */
 #include "support/fail_alloc.h"
+#include "ambulo/tools/load.h"
 #include "support/outer_fixture.h"
 
 #define DOUBLE_EFFORT "objective[0].weight=2"

@@ -1,5 +1,6 @@
 /* The reverse sweep against row gradients, central differences, and a sabotaged callback. */
 #include "problem/nlp.h"
+#include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 #include "support/problem_fixture.h"
 

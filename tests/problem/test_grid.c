@@ -1,5 +1,6 @@
 /* Another grid is the same problem; knot insertion keeps the motion. */
 #include "problem/problem.h"
+#include "ambulo/tools/load.h"
 #include "support/problem_fixture.h"
 
 static void transfer_to_a_finer_spline_keeps_the_motion(void **state) {

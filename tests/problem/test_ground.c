@@ -1,6 +1,7 @@
 /* Ground reaction in a whole problem: models/walk_normal.yaml at a made-up point that moves gently,
  * so that the body presses on the ground. */
 #include "problem/nlp.h"
+#include "ambulo/tools/load.h"
 #include "support/test.h"
 
 typedef struct fixture {

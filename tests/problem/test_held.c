@@ -2,7 +2,7 @@
  * flight; the same mass fixed to a link; momentum of body and load. */
 #include "problem/held.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/engine_fixture.h"
 #include "support/messages.h"
 

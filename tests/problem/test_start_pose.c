@@ -1,5 +1,6 @@
 /* The start pose is a motion at rest in every basis, and a solve begins there. */
 #include "problem/problem.h"
+#include "ambulo/tools/load.h"
 
 #include "support/test.h"
 

@@ -1,4 +1,5 @@
 /* The laws of composite terms, and the table of all kinds. */
+#include "ambulo/tools/load.h"
 #include "form_fixture.h"
 #include "problem/term.h"
 #include "support/test.h"

@@ -3,6 +3,7 @@
 #include "problem/yardstick_reference.h"
 
 #include "ambulo/solve.h"
+#include "ambulo/tools/load.h"
 #include "support/test.h"
 
 enum { VARIABLES = 15 * 18, ROWS = 704 };

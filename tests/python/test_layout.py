@@ -26,7 +26,7 @@ class Layout(Case):
         """What a C program prints that prints these expressions."""
         source = self.folder / "layout.c"
         source.write_text(
-            "#include <ambulo/ambulo.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {\n"
+            "#include <ambulo/tools/tools.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {\n"
             + "".join(f'  printf("%lld\\n", (long long)({line}));\n' for line in lines)
             + "  return 0;\n}\n")
         subprocess.run(COMPILER + ["-std=c11", f"-I{TOP}/include", str(source), "-o",

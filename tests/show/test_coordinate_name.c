@@ -1,5 +1,6 @@
 /* Sides and titles of coordinates, whatever they are called. */
 #include "show/coordinate_name.h"
+#include "ambulo/tools/load.h"
 #include "support/test.h"
 
 typedef struct named {

@@ -5,7 +5,7 @@
 #include "support/test.h"
 #include "support/wellformed.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* gait.svg of a grounded walk: two more panels, one curve a foot in each. */
 #include "solver/result.h"
+#include "ambulo/tools/load.h"
 #include "show/gait_svg.h"
 #include "support/test.h"
 #include "support/wellformed.h"

@@ -1,7 +1,7 @@
 /* Boxes and pushes in the picture: where they are before, while and after they are held. */
 #include "show/gait_held.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 #define LOADS                                                                                      \

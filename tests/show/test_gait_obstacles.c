@@ -1,7 +1,7 @@
 /* Obstacles of a picture: outlines from the side, what of them is beside a figure, rings at places.
  */
 #include "show/gait_obstacles.h"
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 #include <string.h>

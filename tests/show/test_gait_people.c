@@ -1,6 +1,8 @@
 /* People behind the curves of a walk: where they stand in time, their signs and units, and behind
  * which motions they are. */
 #include "show/gait_people.h"
+#include "ambulo/tools/compare.h"
+#include "ambulo/tools/load.h"
 #include "show/gait_svg.h"
 #include "people/strikes.h"
 #include "support/fail_alloc.h"

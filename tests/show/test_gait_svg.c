@@ -1,5 +1,6 @@
 /* gait.svg: well-formed, one group a figure, survives motions that are not finite. */
 #include "model/conditions.h"
+#include "ambulo/tools/load.h"
 #include "show/gait_svg.h"
 #include "support/arm.h"
 #include "support/walker_result.h"

@@ -1,7 +1,7 @@
 /* Marks of devices and loads: where they are, and only while they do something. */
 #include "show/gait_worn.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 static const char *const overrides[] = {

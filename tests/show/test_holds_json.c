@@ -7,7 +7,7 @@
 #include "support/test.h"
 #include "support/wellformed.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #define LOADS                                                                                      \
   "load=[{name: box, hands: [hand_r, hand_l], mass: 10, center: [0.05, 0, -0.1], from: 0.5, to: "  \

@@ -1,5 +1,5 @@
 /* The page: whole or not at all, safe with any name, from folders that hold what they should. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "show/viewer.h"
 #include "support/fail_alloc.h"
 #include "support/inflate.h"

@@ -1,5 +1,6 @@
 /* Pictures as files: units, axes, people, formats; and what there is to say when one cannot be. */
-#include "ambulo/picture.h"
+#include "ambulo/tools/picture.h"
+#include "ambulo/tools/load.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/walker_result.h"

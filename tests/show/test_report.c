@@ -1,4 +1,5 @@
 /* The result folder: complete, replaced only on request, never half. */
+#include "ambulo/tools/tools.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"

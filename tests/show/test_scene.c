@@ -2,7 +2,7 @@
  * the problem. */
 #include "show/scene.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "solver/result.h"
 #include "people/stride.h"
 #include "support/fail_alloc.h"

@@ -1,5 +1,6 @@
 /* Stick figures: sides, and which lines exist. */
 #include "show/skeleton.h"
+#include "ambulo/tools/load.h"
 #include "support/arm.h"
 #include "support/import_case.h"
 #include "support/toed_body.h"

@@ -2,7 +2,7 @@
  */
 #include "show/study_motions.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/inflate.h"
 #include "support/messages.h"
 #include "support/packed_motions.h"

@@ -1,5 +1,6 @@
 /* summary.json: well-formed, complete, and the same through both doors. */
 #include "show/summary_json.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "solver/dense_audit.h"
 #include "support/walker_result.h"

@@ -1,5 +1,5 @@
 /* Versions of what is running: from the libraries themselves. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 static void test_versions(void **state) {

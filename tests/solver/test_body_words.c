@@ -1,6 +1,6 @@
 /* Violations of capsules and obstacles in words: inside, or only too near. */
 #include "solver/body_words.h"
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 #include <string.h>

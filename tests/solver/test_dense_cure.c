@@ -1,6 +1,7 @@
 /* What is foretold comes true: problems are solved again with the settings that the audit names.
  * (bench/bench_dense.c does the same for every shipped problem.) */
 #include "support/problem_path.h"
+#include "ambulo/tools/load.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"
 

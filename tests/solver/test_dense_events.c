@@ -1,5 +1,6 @@
 /* Where nodes fall beside the times at which contacts change. */
 #include "solver/dense.h"
+#include "ambulo/tools/load.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"
 

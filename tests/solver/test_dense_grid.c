@@ -1,6 +1,7 @@
 /* The finer grid: the same trajectory and rows, no objective, contacts moved but for those at the
  * ends; and how fine it may be. */
 #include "solver/dense.h"
+#include "ambulo/tools/load.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"
 

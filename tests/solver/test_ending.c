@@ -1,6 +1,7 @@
 /* The ending tells which limit or which test ended a solve, and credits NLopt with nothing that it
  * did not do. */
 #include "solver/ending.h"
+#include "ambulo/tools/load.h"
 #include "solver/explain.h"
 #include "solver/result.h"
 #include "solver/verdict.h"

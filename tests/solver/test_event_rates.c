@@ -1,5 +1,5 @@
 /* What goes along with an event, against problems whose phases are others. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "contact/gait.h"
 #include "solver/event_rates.h"
 #include "support/fail_alloc.h"

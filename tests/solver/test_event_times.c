@@ -1,6 +1,7 @@
 /* Every number that a file has a name for, phases and times of contacts among them, on grids on
  * events: by hand against central differences. */
 #include "support/sensitivity_check.h"
+#include "ambulo/tools/load.h"
 
 #define ON_EVENTS "time.grid=events", "trajectory.knots=events"
 

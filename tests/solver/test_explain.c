@@ -1,7 +1,7 @@
 /* Thirteen problems without a solution (tests/infeasible), each with what it has to be told: some
  * are refused before solving, the others are explained afterwards. What is suggested can be set as
  * it stands, and leads to a motion that satisfies every row. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "solver/explain.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"

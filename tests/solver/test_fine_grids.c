@@ -2,6 +2,7 @@
  * holds: penalties row by row where common ones drown the metric (linear/kkt.c), and polishing that
  * is relative to the metric (method/polish.c). */
 #include "support/problem_path.h"
+#include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 
 static ambulo_problem *load(const char *name, int intervals) {

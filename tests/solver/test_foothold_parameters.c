@@ -1,6 +1,7 @@
 /* Shipped motions with listed contacts: every number that they have a name for, by hand against
  * central differences; which contacts move together, and what is not listed. */
 #include "support/sensitivity_check.h"
+#include "ambulo/tools/load.h"
 
 static void walk_start(void **state) {
   (void)state;

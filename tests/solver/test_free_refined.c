@@ -1,5 +1,6 @@
 /* Finer grids until a motion holds between its nodes. */
 #include "ambulo/parameters.h"
+#include "ambulo/tools/load.h"
 #include "solver/result.h"
 #include "support/problem_path.h"
 #include "support/engine_fixture.h"

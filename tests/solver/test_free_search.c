@@ -1,5 +1,6 @@
 /* Free parameters: the run finds what a search over problems solved one by one finds. */
 #include "support/outer_fixture.h"
+#include "ambulo/tools/load.h"
 
 /* --------------------------------------------------------------- what is found */
 

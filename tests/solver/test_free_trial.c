@@ -1,5 +1,6 @@
 /* Runs over free parameters that are cut short: by the caller, by limits, without memory. */
 #include "support/outer_fixture.h"
+#include "ambulo/tools/load.h"
 
 typedef struct watcher {
   int stop_at, last, calls; /* stop_at: solve in which the callback says stop; 0: never */

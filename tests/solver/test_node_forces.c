@@ -1,5 +1,5 @@
 /* Tangents of torques and forces against the mechanics themselves. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "solver/node_forces.h"
 #include "support/random_model.h"
 #include "support/test.h"

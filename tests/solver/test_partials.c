@@ -1,5 +1,6 @@
 /* Every number that a file has a name for, by hand against central differences. */
 #include "solver/partials.h"
+#include "ambulo/tools/load.h"
 #include "support/sensitivity_check.h"
 
 static void an_arm(void **state) {

@@ -1,6 +1,6 @@
 /* Sensitivities against problems that are solved anew with a number moved, and what the list says.
  */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "solver/result.h"
 #include "support/fail_alloc.h"
 #include "support/moved_problem.h"

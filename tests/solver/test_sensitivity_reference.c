@@ -9,6 +9,7 @@
  *
  * SIZE is the sum of the derivatives' sizes, against which the difference counts.
  */
+#include "ambulo/tools/load.h"
 #include "ambulo/sensitivity.h"
 #include "problem/problem.h"
 #include "solver/result.h"

@@ -1,6 +1,7 @@
 /* Footholds of any height, slope and heading: every number that a file has a name for, by hand
  * against central differences. */
 #include "solver/partials.h"
+#include "ambulo/tools/load.h"
 #include "support/sensitivity_check.h"
 #include "support/shared_ground.h"
 

@@ -1,5 +1,6 @@
 /* Predicted memory against what is taken, counted by an allocator; absurd sizes are refused. */
 #include "solver/solve_memory.h"
+#include "ambulo/tools/load.h"
 #include "base/free_memory.h"
 #include "problem/memory.h"
 #include "support/engine_fixture.h"

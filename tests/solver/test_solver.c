@@ -1,5 +1,6 @@
 /* ambulo_solve as a caller meets it. */
 #include "support/engine_fixture.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 
 #include <pthread.h>

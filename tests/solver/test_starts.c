@@ -1,5 +1,6 @@
 /* Several starts: the same in every run, counted by valley, the best gone on from. */
 #include "solver/starts.h"
+#include "ambulo/tools/load.h"
 #include "solver/result.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"

@@ -1,6 +1,7 @@
 /* Feet that pass the edges of steps: footholds, heights, times and the ground, by hand against
  * central differences, on grids on events. */
 #include "support/sensitivity_check.h"
+#include "ambulo/tools/load.h"
 
 /* two steps down, the way turned a little to the side, the other foot on the step between */
 #define DOWN                                                                                       \

@@ -1,6 +1,6 @@
 /* How many processes: as asked, and no more than memory allows. */
 #include "study/batch_machine.h"
-#include "ambulo/batch.h"
+#include "ambulo/tools/batch.h"
 #include "base/free_memory.h"
 #include "support/test.h"
 

@@ -1,5 +1,6 @@
 /* What was understood of a fit file, in words. */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "support/fit_files.h"
 #include "study/fit_outcome.h"
 

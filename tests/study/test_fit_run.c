@@ -2,6 +2,8 @@
  * the problem with other numbers, which the fit finds; results that do not depend on workers or
  * stops; folders that are refused; first solves that all fail. */
 #include "ambulo/solve.h"
+#include "ambulo/tools/compare.h"
+#include "ambulo/tools/load.h"
 #include "support/fit_files.h"
 
 #define TRUE_PRICE 5.0 /* 2.5 times that of the file */

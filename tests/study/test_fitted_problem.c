@@ -1,5 +1,6 @@
 /* The problem file with fitted numbers: what is replaced, what stays, names of files. */
 #include "study/fitted_problem.h"
+#include "ambulo/tools/load.h"
 #include "support/fit_files.h"
 
 static char *rewritten(void **state, const ambulo_fit *f, const double *u, const char *folder) {

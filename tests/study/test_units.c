@@ -1,5 +1,6 @@
 /* Units of outputs and keys. */
 #include "study/units.h"
+#include "ambulo/tools/load.h"
 #include "support/test.h"
 
 static void outputs(void **state) {

@@ -3,6 +3,7 @@
 #define AMBULO_TESTS_ENGINE_FIXTURE_H
 
 #include "method/augmented.h"
+#include "ambulo/tools/load.h"
 #include "method/engine_point.h"
 #include "method/model_step.h"
 #include "method/pipeline.h"

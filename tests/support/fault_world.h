@@ -3,7 +3,8 @@
 #ifndef AMBULO_TESTS_FAULT_WORLD_H
 #define AMBULO_TESTS_FAULT_WORLD_H
 
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/fake_batch.h"
 #include "support/faulty_files.h"

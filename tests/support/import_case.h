@@ -4,7 +4,7 @@
 #ifndef AMBULO_TESTS_IMPORT_CASE_H
 #define AMBULO_TESTS_IMPORT_CASE_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 

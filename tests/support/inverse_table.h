@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_INVERSE_TABLE_H
 #define AMBULO_TESTS_INVERSE_TABLE_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "formats/motion_file.h"
 #include "support/messages.h"
 #include "support/motion_text.h"

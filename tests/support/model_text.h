@@ -3,6 +3,7 @@
 #define AMBULO_TESTS_MODEL_TEXT_H
 
 #include "ambulo/model.h"
+#include "ambulo/tools/load.h"
 #include "support/messages.h"
 #include "support/test.h"
 

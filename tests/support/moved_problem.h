@@ -5,6 +5,7 @@
 #define AMBULO_TESTS_MOVED_PROBLEM_H
 
 #include "model/model.h"
+#include "ambulo/tools/load.h"
 #include "problem/nlp.h"
 #include "support/test.h"
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_OUTER_FIXTURE_H
 #define AMBULO_TESTS_OUTER_FIXTURE_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/test.h"

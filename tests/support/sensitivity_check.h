@@ -6,7 +6,7 @@
 #ifndef AMBULO_TESTS_SENSITIVITY_CHECK_H
 #define AMBULO_TESTS_SENSITIVITY_CHECK_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "solver/result.h"
 #include "support/moved_problem.h"
 

@@ -4,7 +4,7 @@
 #ifndef AMBULO_TESTS_SHARED_FIXTURE_H
 #define AMBULO_TESTS_SHARED_FIXTURE_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "contact/contact_load.h"
 #include "problem/nlp.h"
 #include "support/toed_body.h"

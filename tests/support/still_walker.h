@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_STILL_WALKER_H
 #define AMBULO_TESTS_STILL_WALKER_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 /* a walker that hangs still, its right foot pressed from 0.2 s on */

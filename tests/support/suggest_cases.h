@@ -3,7 +3,7 @@
 #ifndef AMBULO_TEST_SUGGEST_CASES_H
 #define AMBULO_TEST_SUGGEST_CASES_H
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "solver/suggest.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"

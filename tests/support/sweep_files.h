@@ -3,7 +3,7 @@
 #ifndef AMBULO_TESTS_SWEEP_FILES_H
 #define AMBULO_TESTS_SWEEP_FILES_H
 
-#include "ambulo/batch.h"
+#include "ambulo/tools/batch.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 

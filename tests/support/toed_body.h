@@ -5,6 +5,7 @@
 #define AMBULO_TESTS_TOED_BODY_H
 
 #include "model/model.h"
+#include "ambulo/tools/load.h"
 #include "support/test.h"
 
 enum { TOED_LINKS = 64, TOED_COORDINATES = 32, TOED_POINTS = 64, TOED_RIGHT = 0, TOED_LEFT = 1 };

@@ -3,7 +3,7 @@
  * changes, and which gait costs less. */
 #include "support/scratch.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #ifndef AMBULO_SOURCE_DIR
 #define AMBULO_SOURCE_DIR "."

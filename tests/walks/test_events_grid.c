@@ -3,7 +3,7 @@
 #include "support/problem_path.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
  * ten times as fine. */
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 enum { FEET = 2, SETTINGS = 4 };
 

@@ -16,7 +16,7 @@
  * differences of positions. */
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 enum { SAMPLES = 4001, FEET = 2, FOOT_POINTS = 4, WALKS = 8 };
 

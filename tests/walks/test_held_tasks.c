@@ -2,7 +2,7 @@
  * pushed with a given force, a wall that bears who leans on it. All solve, hold between their nodes
  * and do what their comments say; energy and forces are those of mechanics. Looked at on 2001
  * times. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "base/vector.h"
 #include "support/test.h"
 

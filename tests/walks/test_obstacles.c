@@ -1,6 +1,6 @@
 /* The shipped tasks among obstacles, from zero: all solve and hold between their nodes; on a grid
  * ten times as fine as the nodes every capsule keeps clear, and each body does what is asked. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "mechanics/pose.h"
 #include "problem/nlp.h"
 #include "people/approach.h"

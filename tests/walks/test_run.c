@@ -6,7 +6,7 @@
 #include "support/scratch.h"
 #include "support/shared_data.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "contact/flight.h"
 #include "mechanics/pose.h"
 #include "problem/problem.h"

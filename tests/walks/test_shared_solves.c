@@ -1,5 +1,5 @@
 /* What contacts that share the load carry at solutions. */
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 #include "support/test.h"
 
 #define STANDING                                                                                   \

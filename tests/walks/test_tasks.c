@@ -3,7 +3,7 @@
 #include "support/scratch.h"
 #include "support/shared_data.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 enum { FINER = 10, AXES = 3 };
 

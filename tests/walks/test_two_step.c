@@ -3,7 +3,7 @@
 #include "support/problem_path.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 static void files_with_a_prescribed_split_still_solve(void **state) {
   (void)state;

@@ -6,7 +6,7 @@
 #include "support/scratch.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #ifndef AMBULO_SOURCE_DIR
 #define AMBULO_SOURCE_DIR "."

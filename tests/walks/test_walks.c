@@ -5,7 +5,7 @@
 #include "support/scratch.h"
 #include "support/shared_data.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 static ambulo_problem *load_walk(const char *name) {
   char path[SCRATCH_PATH];

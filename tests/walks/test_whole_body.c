@@ -3,7 +3,7 @@
 #include "people/stride.h"
 #include "support/test.h"
 
-#include "ambulo/ambulo.h"
+#include "ambulo/tools/tools.h"
 
 #ifndef AMBULO_SOURCE_DIR
 #define AMBULO_SOURCE_DIR "."

@@ -44,5 +44,3 @@ AMBULO__FILL(ambulo_foot, {.heel = {NOT_GIVEN, NONE},
 AMBULO__FILL(ambulo_patch, {.point = NOT_GIVEN, .mirror = ITSELF})
 
 AMBULO__FILL(ambulo_capsule, {.link = NOT_GIVEN, .mirror = ITSELF})
-
-AMBULO__FILL(ambulo_subject, {.size = size, .mass = AMBULO_OFF, .stature = AMBULO_OFF})

@@ -5,6 +5,7 @@
  * zero has the last word: a valley may end between the two values.
  */
 #include "solver/free_search.h"
+#include "ambulo/tools/load.h"
 #include "base/clock.h"
 #include "base/diagnostics.h"
 

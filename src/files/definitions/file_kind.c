@@ -1,5 +1,6 @@
 /* definitions/file_kind.c - model or problem? */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 #include "formats/yaml_node.h"
 
 ambulo_status ambulo_file_kind_of(const char *path, const ambulo_allocator *allocator,

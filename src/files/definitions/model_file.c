@@ -1,5 +1,6 @@
 /* definitions/model_file.c - a model file, from text to model (docs/model-format.md). */
 #include "definitions/model_file.h"
+#include "ambulo/tools/load.h"
 #include "base/sized.h"
 
 #include <math.h>

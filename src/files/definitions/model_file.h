@@ -3,6 +3,7 @@
 #define AMBULO_DEFINITIONS_MODEL_FILE_H
 
 #include "ambulo/model.h"
+#include "ambulo/tools/load.h"
 
 /* One value of the model file, replaced before it is read: "links[shank_r].body.mass". */
 typedef struct ambulo__model_setting {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "definitions/model_reader.h"
+#include "ambulo/tools/load.h"
 
 static int is_none(const ambulo__yaml_node *node) {
   return ambulo__yaml_is(node, AMBULO__YAML_SCALAR) && strcmp(ambulo__yaml_text(node), "none") == 0;

@@ -7,6 +7,7 @@
 #define AMBULO_DEFINITIONS_MODEL_READER_H
 
 #include "formats/yaml_node.h"
+#include "ambulo/tools/load.h"
 #include "model/check.h"
 #include "model/composite.h"
 

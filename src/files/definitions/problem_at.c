@@ -4,6 +4,7 @@
  * parameter: what a user would have by `--set`; then extended as the problem was.
  */
 #include "problem/problem.h"
+#include "ambulo/tools/load.h"
 #include "base/sized.h"
 #include "definitions/problem_free.h"
 

@@ -10,6 +10,7 @@
  * model_file.h, model_reader.h, model_links.c; solution_load.c.
  */
 #include "definitions/problem_free.h"
+#include "ambulo/tools/load.h"
 
 #include "base/sized.h"
 #include "formats/read_file.h"

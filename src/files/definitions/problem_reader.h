@@ -8,6 +8,7 @@
 #define AMBULO_DEFINITIONS_PROBLEM_READER_H
 
 #include "ambulo/solve.h"
+#include "ambulo/tools/load.h"
 #include "formats/yaml_node.h"
 #include "problem/nlp.h"
 #include "definitions/model_file.h"

@@ -3,7 +3,8 @@
  * Coordinates are matched by name, in any order. On the problem's own basis the numbers are
  * copied; from any other they are carried over by trajectory/basis.h (knot insertion where
  * that is exact, least squares otherwise). */
-#include "ambulo/report.h"
+#include "ambulo/tools/report.h"
+#include "ambulo/tools/load.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,15 @@
-/* ambulo/import.h - models of other programs: OpenSim (.osim), URDF and MuJoCo (.xml) to YAML.
+/* ambulo/tools/import.h - models of other programs: OpenSim (.osim), URDF and MuJoCo (.xml) to
+ * YAML.
  *
  * What comes out is the text of a model file (docs/model-format.md) that loads, with comments that
  * say where it came from and what could not be carried over (docs/guide-import.md). Files are XML
  * and read with expat, an optional library: ambulo_import_available() tells whether this library
  * was built with it.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
-#ifndef AMBULO_IMPORT_H
-#define AMBULO_IMPORT_H
+#ifndef AMBULO_TOOLS_IMPORT_H
+#define AMBULO_TOOLS_IMPORT_H
 
 #include "ambulo/model.h"
 

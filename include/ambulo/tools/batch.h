@@ -1,12 +1,14 @@
-/* ambulo/batch.h - many problems: a sweep file, worker processes, one table.
+/* ambulo/tools/batch.h - many problems: a sweep file, worker processes, one table.
  *
  * A sweep is a base problem and values for some of its keys; its case list is a pure
  * function of the file. Each case is solved by a process of its own and leaves a result
  * folder and a record, both whole or absent, so that a run may be killed at any time and
  * resumed. Formats: docs/batch-format.md.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
-#ifndef AMBULO_BATCH_H
-#define AMBULO_BATCH_H
+#ifndef AMBULO_TOOLS_BATCH_H
+#define AMBULO_TOOLS_BATCH_H
 
 #include "ambulo/status.h"
 

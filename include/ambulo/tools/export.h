@@ -1,13 +1,15 @@
-/* ambulo/export.h - models and motions for other programs: OpenSim, URDF, NumPy's .npz.
+/* ambulo/tools/export.h - models and motions for other programs: OpenSim, URDF, NumPy's .npz.
  *
  * What comes out moves as the model does: the same mass matrix, coordinates of the same names
  * (docs/guide-export.md). The world is turned to the other program's axes: OpenSim's ground has y
  * up, a URDF's world z up, both x near forward.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
-#ifndef AMBULO_EXPORT_H
-#define AMBULO_EXPORT_H
+#ifndef AMBULO_TOOLS_EXPORT_H
+#define AMBULO_TOOLS_EXPORT_H
 
-#include "ambulo/inverse.h"
+#include "ambulo/tools/inverse.h"
 #include "ambulo/problem.h"
 
 #ifdef __cplusplus

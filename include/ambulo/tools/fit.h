@@ -1,12 +1,14 @@
-/* ambulo/fit.h - inverse optimal control: numbers of a problem by which its predicted motions come
- * closest to curves of people.
+/* ambulo/tools/fit.h - inverse optimal control: numbers of a problem by which its predicted motions
+ * come closest to curves of people.
  *
  * A fit file names a problem, parameters (weights, prices, phases: keys of the problem), conditions
  * (speeds, subjects, slopes: overrides, each with its reference curves) and a distance. Its inner
  * solves are run by processes as those of a batch (batch.h). Format: docs/guide-fit.md.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
-#ifndef AMBULO_FIT_H
-#define AMBULO_FIT_H
+#ifndef AMBULO_TOOLS_FIT_H
+#define AMBULO_TOOLS_FIT_H
 
 #include "ambulo/status.h"
 

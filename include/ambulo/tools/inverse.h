@@ -1,11 +1,13 @@
-/* ambulo/inverse.h - inverse dynamics of motions in files (docs/guide-inverse.md).
+/* ambulo/tools/inverse.h - inverse dynamics of motions in files (docs/guide-inverse.md).
  *
  * A motion is a table (CSV, STO or MOT) with a column `time` and one for each coordinate of the
  * model. Its torques, its root wrench, its zero-moment point and the power of its joints are
  * written as another table. Units: SI and radians, whatever the file's; axes: the world's.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
-#ifndef AMBULO_INVERSE_H
-#define AMBULO_INVERSE_H
+#ifndef AMBULO_TOOLS_INVERSE_H
+#define AMBULO_TOOLS_INVERSE_H
 
 #include "ambulo/mechanics.h"
 

@@ -1,12 +1,14 @@
-/* ambulo/picture.h - pictures of a motion for a paper or a talk: SVG, PDF or PNG
+/* ambulo/tools/picture.h - pictures of a motion for a paper or a talk: SVG, PDF or PNG
  * (docs/guide-page.md).
  *
  * SVG is written by the library itself. PDF and PNG are made of it by rsvg-convert (librsvg), a
  * program that is looked for on PATH when one is asked for: the library is linked to nothing for
  * them. Files are written whole or not at all: temporary name, fsync, rename.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
-#ifndef AMBULO_PICTURE_H
-#define AMBULO_PICTURE_H
+#ifndef AMBULO_TOOLS_PICTURE_H
+#define AMBULO_TOOLS_PICTURE_H
 
 #include "ambulo/solve.h"
 

@@ -1,0 +1,130 @@
+/* ambulo/tools/load.h - models, problems and solutions from files (docs/problem-format.md,
+ * docs/model-format.md).
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
+ */
+#ifndef AMBULO_TOOLS_LOAD_H
+#define AMBULO_TOOLS_LOAD_H
+
+#include "ambulo/parameters.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------- models */
+
+/* The person a model is scaled to. */
+typedef enum ambulo_sex {
+  AMBULO_SEX_NOT_SET = 0, /* as in the file */
+  AMBULO_FEMALE,
+  AMBULO_MALE
+} ambulo_sex;
+typedef struct ambulo_subject {
+  size_t size;    /* set by ambulo_subject_default() */
+  double mass;    /* kg; AMBULO_OFF: as in the file */
+  double stature; /* m; AMBULO_OFF: as in the file */
+  ambulo_sex sex;
+} ambulo_subject;
+AMBULO_DEFAULT(ambulo_subject); /* all as in the file */
+
+/* Loads a model file, or text that is already in memory (`name` then stands for
+ * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.
+ * Errors: E_IO, E_PARSE, E_SCHEMA, E_MODEL, E_LIMIT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load(const char *path,
+                                                            const ambulo_subject *subject,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics,
+                                                            ambulo_model **model);
+/* ambulo_model_load with values of the file replaced before it is read: overrides[i] is
+ * "path=value" ("links[shank_r].body.mass=4.1"; as in a problem's overrides the path may begin with
+ * "model."). Errors: also E_ARGUMENT (an override that is none). */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_model_load_with(const char *path, const char *const *overrides, int override_count,
+                       const ambulo_subject *subject, const ambulo_allocator *allocator,
+                       ambulo_diagnostics *diagnostics, ambulo_model **model);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
+    const char *text, size_t length, const char *name, const ambulo_subject *subject,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_model **model);
+
+/* ----------------------------------------------------------------- problems */
+
+/* From a file; the model it names is loaded with it and owned by the problem. A name of a model or
+ * a reference that is not beside the file is looked for below the folder that the environment calls
+ * AMBULO_MODELS, if it is set, which a note says.
+ * overrides[i] is "path=value" ("time.intervals=36"), applied before anything is
+ * read. Errors: as ambulo_model_load and ambulo_problem_create. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load(
+    const char *path, const char *const *overrides, int override_count,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+/* The text of a problem file that is in memory already. */
+typedef struct ambulo_problem_text {
+  size_t size; /* set by ambulo_problem_text_default() */
+  const char *text;
+  size_t length;
+  const char *name;      /* stands for the file in messages */
+  const char *directory; /* where relative file names in the text start; NULL: the current one */
+  const char *const *overrides; /* [override_count] "path=value" */
+  int override_count;
+} ambulo_problem_text;
+AMBULO_DEFAULT(ambulo_problem_text); /* empty */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_problem_load_text(const ambulo_problem_text *text, const ambulo_allocator *allocator,
+                         ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+
+/* The problem of a file with a section `free`, read again as it was then with its free parameters
+ * at values [count], SI and rad; nothing of the new problem is free. E_ARGUMENT: nothing is free in
+ * this one. Other errors: as ambulo_problem_load. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem *problem,
+                                                            const double *values,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics,
+                                                            ambulo_problem **at);
+
+/* ---------------------------------------------------------------- solutions */
+
+/* Reads a solution.yaml into x [variable_count of problem]. A solution on another
+ * grid or basis of the same model and duration is carried over. Errors: E_IO,
+ * E_PARSE, E_SCHEMA, E_PROBLEM (other coordinates), E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_load(const char *path,
+                                                               const ambulo_problem *problem,
+                                                               const ambulo_allocator *allocator,
+                                                               ambulo_diagnostics *diagnostics,
+                                                               double *x);
+
+/* The same as a start for the solver: a solution of another duration is stretched in time. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_start(const char *path,
+                                                                const ambulo_problem *problem,
+                                                                const ambulo_allocator *allocator,
+                                                                ambulo_diagnostics *diagnostics,
+                                                                double *x);
+
+/* The same from one period of the motion, repeated as often as its duration goes into the
+ * problem's (rounded; then stretched): a step is followed by its mirror image
+ * (AMBULO_ENDS_MIRRORED), a stride by itself (AMBULO_ENDS_PERIODIC), each carried on by what the
+ * period carries the root. E_ARGUMENT for other ends. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_repeat(
+    const char *path, const ambulo_problem *problem, ambulo_ends ends,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, double *x);
+
+/* --------------------------------------------------------------------- files */
+
+/* What a YAML file is, by its key `kind`. */
+typedef enum ambulo_file_kind {
+  AMBULO_FILE_UNKNOWN = 0,
+  AMBULO_FILE_MODEL,
+  AMBULO_FILE_PROBLEM
+} ambulo_file_kind;
+/* Errors: E_IO, E_PARSE, E_SCHEMA (another kind, or none), E_LIMIT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(const char *path,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics,
+                                                              ambulo_file_kind *kind);
+
+/* Frees a text that a function of ambulo/tools allocated; accepts NULL. */
+AMBULO_API void ambulo_text_free(char *text, const ambulo_allocator *allocator);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

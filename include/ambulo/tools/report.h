@@ -1,0 +1,57 @@
+/* ambulo/tools/report.h - results and motions on disk (docs/results.md).
+ *
+ * Writers produce whole files or nothing: temporary name, fsync, rename.
+ *
+ * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
+ */
+#ifndef AMBULO_TOOLS_REPORT_H
+#define AMBULO_TOOLS_REPORT_H
+
+#include "ambulo/tools/inverse.h"
+#include "ambulo/solve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ambulo_report_options {
+  size_t size;       /* set by ambulo_report_options_default() */
+  int samples;       /* times in motion.csv; 0: the nodes */
+  int overwrite;     /* 1: replace an existing result folder */
+  const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
+                        a walk in gait.svg; NULL: none */
+} ambulo_report_options;
+AMBULO_DEFAULT(ambulo_report_options);
+
+/* E_IO now if ambulo_report_write could not write `directory` later (it exists
+ * and overwrite is 0; its parent is missing or not writable). `options` and `diagnostics`
+ * may be NULL: the defaults, no messages; here and below. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_check(const char *directory,
+                                                              const ambulo_report_options *options,
+                                                              ambulo_diagnostics *diagnostics);
+
+/* Writes summary.json, motion.csv, motion.sto, solution.yaml and gait.svg into
+ * `directory`, all or nothing. Errors: E_ARGUMENT, E_IO, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(const ambulo_problem *problem,
+                                                              const ambulo_result *result,
+                                                              const char *directory,
+                                                              const ambulo_report_options *options,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics);
+
+/* The text of summary.json; free with ambulo_text_free. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(const ambulo_problem *problem,
+                                                                const ambulo_result *result,
+                                                                const ambulo_allocator *allocator,
+                                                                char **text);
+
+/* The versions of what is running, as text. */
+typedef struct ambulo_versions {
+  char ambulo[24], nlopt[24], libyaml[24], blas[64], instruction_set[24];
+} ambulo_versions;
+AMBULO_API void ambulo_versions_get(ambulo_versions *versions);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
