@@ -111,8 +111,8 @@ static void numbers_have_ranges(void **state) {
       {&b.d.minimum_force, "minimum_force", MAY_BE_OFF},
       {&b.d.contact_tolerance, "contact_tolerance", 0},
       {&b.d.orientation_tolerance, "orientation_tolerance", 0},
-      {&b.d.strike_pitch[0], "strike_pitch[0]", 0},
-      {&b.d.strike_pitch[1], "strike_pitch[1]", 0},
+      {&b.d.strike_pitch[0], "strike_pitch", 0},
+      {&b.d.strike_pitch[1], "strike_pitch", 0},
       {&b.d.travel, "ends.travel", 0},
       {&c->height, "clearance.height", MAY_BE_OFF},
       {&c->tip_from, "clearance.tip_from", 0},
@@ -126,22 +126,22 @@ static void numbers_have_ranges(void **state) {
       {&r->friction, "ground_reaction.friction", MAY_BE_OFF},
       {&r->free_moment, "ground_reaction.free_moment", MAY_BE_OFF},
       {&r->loading_rate, "ground_reaction.loading_rate", MAY_BE_OFF},
-      {&r->heel_pressure[0], "heel_pressure[0]", 0},
-      {&r->heel_pressure[1], "heel_pressure[1]", 0},
-      {&r->heel_roll, "heel_roll", 0},
-      {&r->flat_pressure[1], "flat_pressure[1]", 0},
-      {&r->toe_pressure[0], "toe_pressure[0]", 0},
-      {&r->pressure_width, "pressure_width", 0},
-      {&r->arc_pressure, "arc_pressure", 0},
+      {&r->heel_pressure[0], "pressure.heel[0]", 0},
+      {&r->heel_pressure[1], "pressure.heel[1]", 0},
+      {&r->heel_roll, "pressure.roll", 0},
+      {&r->flat_pressure[1], "pressure.flat[1]", 0},
+      {&r->toe_pressure[0], "pressure.toe[0]", 0},
+      {&r->pressure_width, "pressure.width", 0},
+      {&r->arc_pressure, "pressure.arc", 0},
       {&b.terms[0].weight, "objective[0]", 0},
       {&b.terms[0].smoothing, "objective[0]", 0},
       {&b.terms[0].power, "objective[0]", 0},
       {&b.terms[2].height, "objective[2]", 0},
-      {&b.scale[1], "objective[0]: scale[1]", 0},
-      {&b.offset[0], "objective[0]: offset[0]", 0},
-      {&b.passive[5], "objective[0]: passive[5]", 0},
-      {&b.strength[11], "objective[0]: strength[11]", 0},
-      {&b.reference[21], "objective[1]: reference[21]", 0},
+      {&b.scale[1], "objective[0] (torque_power): scale[1]", 0},
+      {&b.offset[0], "objective[0] (torque_power): offset[0]", 0},
+      {&b.passive[5], "objective[0] (torque_power): passive[5]", 0},
+      {&b.strength[11], "objective[0] (torque_power): strength[11]", 0},
+      {&b.reference[21], "objective[1] (tracking): reference[21]", 0},
       {&b.samples[5], "tubes[0]", 0},
       {&b.width[1], "tubes[0]", 1},
       {&b.end.value, "end value 0", 0},
@@ -253,7 +253,7 @@ static void grids_are_checked(void **state) {
   expect_grid_refused(&b, "a grid on events with basis hermite; expected bspline");
   b.d.discretization = AMBULO_BSPLINE;
   b.d.grid = (ambulo_grid)3;
-  expect_grid_refused(&b, "time.grid is unknown (got 3); expected AMBULO_GRID_UNIFORM or _EVENTS");
+  expect_grid_refused(&b, "time.grid is unknown (got 3); expected 1 (uniform) or 2 (events)");
   b.d.grid = AMBULO_GRID_UNIFORM;
   b.d.knots = AMBULO_GRID_EVENTS;
   b.d.breakpoints = breaks;
@@ -328,8 +328,8 @@ static void tendons_are_those_of_power(void **state) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(create(&b, list), AMBULO_OK);
   ambulo_diagnostics_free(list);
-  expect_range(&b, &tendon[1], "objective[0]: tendon", 0);
-  expect_refused(&b, &tendon[1], -1.0, "objective[0]: tendon");
+  expect_range(&b, &tendon[1], "objective[0] (mechanical_power): tendon", 0);
+  expect_refused(&b, &tendon[1], -1.0, "objective[0] (mechanical_power): tendon");
   b.terms[0].kind = AMBULO_TORQUE_SQUARED;
   expect_refused(&b, &tendon[1], 1.0, "objective[0] (torque_squared): tendons; expected mech");
   ambulo_model_free(b.model);

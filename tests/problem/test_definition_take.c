@@ -1,7 +1,7 @@
 /* A program of an older header gives shorter items, shorter parts and a shorter definition, and
  * gets the problem that it meant: the same hash as that of a definition with the defaults in what
  * it lacks. */
-#include "problem/definition_take.h"
+#include "problem/definition.h"
 #include "support/fail_alloc.h"
 #include "support/older.h"
 #include "support/planar_walker.h"

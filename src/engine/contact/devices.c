@@ -11,7 +11,6 @@
  */
 #include "contact/devices.h"
 
-#include "base/sized.h"
 #include "base/vector.h"
 #include "contact/device_path.h"
 
@@ -42,20 +41,6 @@ enum { kept_effort, kept_by_along, kept_by_rate, kept_along, kept_rate, KEPT_HEA
 static size_t entries_of(int n) {
   size_t count = (size_t)n;
   return KEPT_HEADER + 2 * count + count * count + 6 * count;
-}
-
-void ambulo_device_fill(ambulo_device *filled, ambulo_device_kind kind, size_t size) {
-  const ambulo_device usual = {.kind = kind,
-                               .coordinate = -1,
-                               .link = {-1, -1},
-                               .side = AMBULO_DEVICE_BOTH,
-                               .smoothing = 0.01,
-                               .amount = 1.0,
-                               .clock = AMBULO_DEVICE_CONSTANT,
-                               .foot = -1,
-                               .image_of = -1,
-                               .ramp = 0.05};
-  ambulo__sized_fill(filled, size, &usual, sizeof usual);
 }
 
 int ambulo__device_turns(const ambulo_model *model, const ambulo_device *device) {

@@ -127,7 +127,8 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
           .mode = mode == AMBULO_CONTACT_HEEL ? landing : (ambulo_contact_mode)mode,
           .from = strike + fraction[mode - AMBULO_CONTACT_HEEL] * stride,
           .to = strike + fraction[mode - AMBULO_CONTACT_HEEL + 1] * stride,
-          .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width}};
+          .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width},
+          .patch = -1};
       if (contact.to - contact.from > AMBULO__INSTANT) write_span(&w, contact);
     }
   }

@@ -5,7 +5,6 @@
  */
 #include "contact/holds.h"
 
-#include "base/sized.h"
 #include "base/vector.h"
 #include "contact/hand_motion.h"
 #include "model/model.h"
@@ -63,7 +62,6 @@ static ambulo__hand_motion motion_kept(const held *h, const double *kept, int ha
 
 /* ------------------------------------------------------------ compilation */
 
-AMBULO__FILL(ambulo_hold, {.hand = {-1, -1}, .to = INFINITY, .ramp = 0.1})
 
 static ambulo_status compile(const ambulo_model *model, const ambulo_hold *hold,
                              const ambulo_allocator *a, held *h) {

@@ -1,149 +1,144 @@
 /* problem/definition_check.c - every check of a problem's definition that needs no grid.
  *
- * Each number has a range, also in definitions built in code: what is not finite, or so large that
- * products of such numbers overflow, is refused here by name instead of spoiling a solve.
+ * Each number has a range (members.h), also in definitions built in code: what is not finite, or so
+ * large that products of such numbers overflow, is refused here by name instead of spoiling a
+ * solve.
  */
 #include "contact/collision.h"
-#include "problem/problem.h"
+#include "contact/devices.h"
+#include "contact/gait.h"
+#include "contact/holds.h"
+#include "problem/definition.h"
+#include "problem/term.h"
+#include "trajectory/basis.h"
 
 #include <math.h>
 #include <stdio.h>
-
-enum { MAX_INTERVALS = 100000 };
+#include <string.h>
 
 #define REFUSE(diagnostics, ...)                                                                   \
   ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL, __VA_ARGS__)
 
-/* -------------------------------------------------------------- plain numbers */
-
-static const double shortest = 1e-6;  /* s: no motion is shorter */
 static const double narrowest = 1e-6; /* m: points nearer than that have no line */
-static const double longest = 1e6;    /* m, s: no length or duration of a task is longer */
-static const double largest = 1e12;   /* weights, scales and offsets */
-static const double everything = HUGE_VAL;
+static const double largest = 1e12;   /* end values, prices */
 
-/* `count` numbers that have to lie in [low, high]; infinite ends let infinity pass */
-typedef struct number_range {
-  const char *name, *unit;
-  const double *value;
-  int count;
-  double low, high;
-  int may_be_off;
-} number_range;
+/* --------------------------------------------------------------------- the table */
 
-static int lies_in(const number_range *r, double value) {
-  return value >= r->low && value <= r->high && (isfinite(value) || r->high == everything);
+/* A member of a definition, a part or a term, under its name in files. */
+typedef struct checked {
+  const ambulo_problem_definition *definition;
+  const ambulo__member *member;
+  const char *owner; /* with what stands behind it: "objective[0] (upright): ", or "" */
+  ambulo_diagnostics *list;
+} checked;
+
+static int lies_in(const ambulo__member *m, double value) {
+  double range[2];
+  ambulo__member_range(m, range);
+  if (isnan(value)) return m->flags & AMBULO__MAY_BE_OFF;
+  return value >= range[0] && value <= range[1] &&
+         (isfinite(value) || m->flags & AMBULO__MAY_BE_INFINITE);
 }
 
-static ambulo_status check_range(const number_range *r, ambulo_diagnostics *list) {
-  const char *space = r->unit[0] ? " " : "";
-  for (int i = 0; r->value && i < r->count; i++) {
-    if (lies_in(r, r->value[i]) || (r->may_be_off && isnan(r->value[i]))) continue;
-    char place[16] = "";
-    if (r->count > 1) (void)snprintf(place, sizeof place, "[%d]", i);
-    return REFUSE(list, "%s%s is %g%s%s; expected %g to %g%s", r->name, place, r->value[i], space,
-                  r->unit, r->low, r->high, r->may_be_off ? ", or AMBULO_OFF" : "");
+static ambulo_status check_numbers(const checked *c, const double *value, size_t count) {
+  const ambulo__member *m = c->member;
+  for (size_t i = 0; value && i < count; i++) {
+    if (lies_in(m, value[i])) continue;
+    char place[24] = "";
+    if (m->count > 1 || m->type == AMBULO__NUMBER_ARRAY)
+      (void)snprintf(place, sizeof place, "[%zu]", i);
+    const char *unit = ambulo__quantity_unit(m->quantity);
+    double range[2];
+    ambulo__member_range(m, range);
+    return REFUSE(c->list, "%s%s%s is %g%s%s; expected %g to %g%s", c->owner, m->key, place,
+                  value[i], unit[0] ? " " : "", unit, range[0], range[1],
+                  m->flags & AMBULO__MAY_BE_OFF ? ", or AMBULO_OFF" : "");
   }
+  if (m->flags & AMBULO__RISING && value && !(value[0] < value[1]))
+    return REFUSE(c->list, "%s%s is [%g, %g]; expected lower < upper", c->owner, m->key, value[0],
+                  value[1]);
   return AMBULO_OK;
 }
 
-static ambulo_status check_ranges(const number_range *ranges, size_t count,
-                                  ambulo_diagnostics *list) {
+static ambulo_status check_integer(const checked *c, int value) {
+  const ambulo__member *m = c->member;
+  if (value >= m->low && value <= m->high) return AMBULO_OK;
+  return REFUSE(c->list, "%s%s is %d; expected %g to %g", c->owner, m->key, value, m->low, m->high);
+}
+
+/* constants of enumerations go from 1 on where 0 is that nobody chose */
+static ambulo_status check_choice(const checked *c, int value) {
+  const ambulo__member *m = c->member;
+  char expected[160] = "";
+  if (value >= m->first_word && value < m->first_word + m->word_count) return AMBULO_OK;
+  for (int k = 0; k < m->word_count; k++) {
+    size_t used = strlen(expected);
+    (void)snprintf(expected + used, sizeof expected - used, "%s%d (%s)",
+                   k == 0                   ? ""
+                   : k + 1 == m->word_count ? " or "
+                                            : ", ",
+                   m->first_word + k, m->words[k]);
+  }
+  return REFUSE(c->list, "%s%s is %s (got %d); expected %s", c->owner, m->key,
+                value || m->first_word == 0 ? "unknown" : "not set", value, expected);
+}
+
+/* the degree is a spline's alone */
+static int matters(const ambulo_problem_definition *d, const ambulo__member *m) {
+  return d->discretization == AMBULO_BSPLINE || strcmp(m->key, "trajectory.degree") != 0;
+}
+
+static ambulo_status check_member(const checked *c, const void *item) {
+  const ambulo__member *m = c->member;
+  const char *at = (const char *)item + m->at;
+  int has_range = m->low < m->high, integer = 0;
+  if (m->type == AMBULO__INTEGER || m->type == AMBULO__CHOICE) memcpy(&integer, at, sizeof integer);
+  if (m->type == AMBULO__CHOICE) return check_choice(c, integer);
+  if (m->type == AMBULO__INTEGER && has_range) return check_integer(c, integer);
+  if ((m->type == AMBULO__NUMBER || m->type == AMBULO__FILE_ANGLE) && has_range)
+    return check_numbers(c, (const double *)(const void *)at, (size_t)m->count);
+  if (m->type == AMBULO__NUMBER_ARRAY && has_range)
+    return check_numbers(c, ambulo__member_array(m, item),
+                         ambulo__member_length(m, c->definition, item) * (size_t)m->count);
+  return AMBULO_OK;
+}
+
+/* every member with a range, of a structure that `owner` names ("": keys are whole paths), and of
+ * its parts; of a term what its kind has; the last fault */
+static ambulo_status check_members(const ambulo_problem_definition *d, const ambulo__structure *s,
+                                   const char *owner, const void *item, int kinds,
+                                   ambulo_diagnostics *list) {
   ambulo_status status = AMBULO_OK;
-  for (size_t i = 0; i < count; i++) {
-    ambulo_status one = check_range(&ranges[i], list);
+  for (int i = 0; i < s->count; i++) {
+    const ambulo__member *m = &s->members[i];
+    checked c = {d, m, owner, list};
+    ambulo_status one = AMBULO_OK;
+    char part[48];
+    if (m->type == AMBULO__PART) {
+      (void)snprintf(part, sizeof part, "%s.", m->key);
+      one = check_members(d, m->of, part, (const char *)item + m->at, 0, list);
+    } else if (m->key && (!m->of_kinds || m->of_kinds & kinds) && matters(d, m))
+      one = check_member(&c, item);
     if (one) status = one;
   }
   return status;
 }
 
-static ambulo_status check_strike_pitch(const double *pitch, ambulo_diagnostics *list) {
-  const number_range range = {"constraints.strike_pitch", "rad", pitch, 2, -10.0, 10.0, 0};
-  if (isnan(pitch[0]) && isnan(pitch[1])) return AMBULO_OK;
-  ambulo_status status = check_range(&range, list);
-  if (!status && !(pitch[0] < pitch[1]))
-    status =
-        REFUSE(list,
-               "constraints.strike_pitch is from %g to %g rad; expected rising angles, or both "
-               "AMBULO_OFF",
-               pitch[0], pitch[1]);
-  return status;
+/* arrays of which there are items */
+static int arrays_are_there(const ambulo__structure *s, const void *item) {
+  int all = 1;
+  for (int i = 0; i < s->count; i++) {
+    const ambulo__member *m = &s->members[i];
+    int count = 0;
+    if (m->type == AMBULO__PART) all &= arrays_are_there(m->of, (const char *)item + m->at);
+    if (m->type != AMBULO__ITEMS) continue;
+    memcpy(&count, (const char *)item + m->count_at, sizeof count);
+    all &= count == 0 || (count > 0 && ambulo__member_array(m, item));
+  }
+  return all;
 }
 
-static ambulo_status check_task(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
-  const number_range ranges[] = {
-      {"constraints.ground_height", "m", &d->ground_height, 1, -longest, longest, 0},
-      {"constraints.zmp_margin", "m", &d->support_margin, 1, 0.0, longest, 0},
-      {"minimum_force", "body weights", &d->minimum_force, 1, 0.0, largest, 1},
-      {"constraints.contact_tolerance", "m", &d->contact_tolerance, 1, -longest, longest, 0},
-      {"constraints.orientation_tolerance", "rad", &d->orientation_tolerance, 1, 0.0, 10.0, 0},
-      {"ends.travel", "m", &d->travel, 1, -longest, longest, 0},
-      {"ends.rise", "m", &d->rise, 1, -longest, longest, 0},
-  };
-  ambulo_status pitch = check_strike_pitch(d->strike_pitch, list);
-  ambulo_status status = check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
-  return status ? status : pitch;
-}
-
-static ambulo_status check_clearance(const ambulo_clearance *c, ambulo_diagnostics *list) {
-  const number_range ranges[] = {
-      {"constraints.clearance.height", "m", &c->height, 1, 0.0, longest, 1},
-      {"constraints.clearance.tip_from", "", &c->tip_from, 1, -largest, largest, 0},
-      {"constraints.clearance.ceiling", "m", &c->ceiling, 1, -longest, everything, 0},
-      {"constraints.clearance.turn", "", &c->turn, 1, 0.0, everything, 0},
-      {"constraints.clearance.outward", "m", &c->outward, 1, 0.0, everything, 0},
-      {"constraints.clearance.inward", "m", &c->inward, 1, 0.0, everything, 0},
-      {"constraints.clearance.feet", "m", &c->feet, 1, 0.0, longest, 1},
-  };
-  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
-}
-
-static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diagnostics *list) {
-  const number_range ranges[] = {
-      {"ground_reaction.exponent", "", &r->exponent, 1, 1.0, 100.0, 0},
-      {"ground_reaction.shear", "", &r->shear, 1, -100.0, 100.0, 0},
-      {"ground_reaction.friction", "", &r->friction, 1, 0.0, largest, 1},
-      {"ground_reaction.free_moment", "m", &r->free_moment, 1, 0.0, largest, 1},
-      {"ground_reaction.heel_pressure", "m", r->heel_pressure, 2, -longest, longest, 0},
-      {"ground_reaction.heel_roll", "m", &r->heel_roll, 1, -longest, longest, 0},
-      {"ground_reaction.flat_pressure", "m", r->flat_pressure, 2, -longest, longest, 0},
-      {"ground_reaction.toe_pressure", "m", r->toe_pressure, 2, -longest, longest, 0},
-      {"ground_reaction.pressure_width", "m", &r->pressure_width, 1, 0.0, longest, 0},
-      {"ground_reaction.arc_pressure", "m", &r->arc_pressure, 1, 0.0, longest, 0},
-      {"ground_reaction.moment_arm", "m", &r->moment_arm, 1, 1e-6, longest, 0},
-      {"ground_reaction.slant", "", &r->slant, 1, 1e-6, largest, 0},
-      {"ground_reaction.loading_rate", "1/s", &r->loading_rate, 1, 0.0, largest, 1},
-      {"ground_reaction.flight_tolerance", "body weights", &r->flight_tolerance, 1, 1e-6, largest,
-       0},
-  };
-  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
-}
-
-/* -------------------------------------------------------------------- the rest */
-
-/* constants of enumerations go from 1 on; 0 is that nobody chose */
-static ambulo_status check_choice(const char *name, int value, int last, const char *expected,
-                                  ambulo_diagnostics *list) {
-  if (value >= 1 && value <= last) return AMBULO_OK;
-  return REFUSE(list, "%s is %s (got %d); expected %s", name, value ? "unknown" : "not set", value,
-                expected);
-}
-
-static ambulo_status check_choices(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
-  static const char grids[] = "AMBULO_GRID_UNIFORM or _EVENTS";
-  ambulo_status status[] = {
-      check_choice("time.grid", (int)d->grid, AMBULO_GRID_EVENTS, grids, list),
-      check_choice("trajectory.knots", (int)d->knots, AMBULO_GRID_EVENTS, grids, list),
-      check_choice("trajectory.basis", (int)d->discretization, AMBULO_HERMITE,
-                   "AMBULO_BSPLINE, _CENTRAL_DIFFERENCE or _HERMITE", list),
-      d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP
-          ? check_choice("ground_reaction.transfer", (int)d->ground_reaction.transfer,
-                         AMBULO_TRANSFER_SMOOTH, "AMBULO_TRANSFER_EARLY, _LINEAR or _SMOOTH", list)
-          : AMBULO_OK};
-  for (size_t i = 0; i < sizeof status / sizeof *status; i++)
-    if (status[i]) return status[i];
-  return AMBULO_OK;
-}
+/* --------------------------------------------------------------------------- grid */
 
 static ambulo_status check_node_times(const ambulo_problem_definition *d,
                                       ambulo_diagnostics *list) {
@@ -174,27 +169,17 @@ static ambulo_status check_places(const ambulo_problem_definition *d, ambulo_dia
   return d->node_times ? check_node_times(d, list) : AMBULO_OK;
 }
 
-static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
-  ambulo_status status = AMBULO_OK;
-  if (!(d->duration >= shortest && d->duration <= longest))
-    status =
-        REFUSE(list, "time.duration is %g s; expected %g to %g s", d->duration, shortest, longest);
-  if (d->intervals < 1 || d->intervals > MAX_INTERVALS)
-    status = REFUSE(list, "time.intervals is %d; expected 1 to %d", d->intervals, MAX_INTERVALS);
-  if (d->spline_intervals < 0 || d->spline_intervals > MAX_INTERVALS)
-    status =
-        REFUSE(list, "trajectory.intervals is %d; expected 1 to %d (0: as many as time intervals)",
-               d->spline_intervals, MAX_INTERVALS);
-  if (d->discretization == AMBULO_BSPLINE && (d->degree < 3 || d->degree > AMBULO__MAX_DEGREE))
-    status =
-        REFUSE(list, "trajectory.degree is %d; expected 3 to %d", d->degree, AMBULO__MAX_DEGREE);
-  for (int i = 0; d->breakpoints && !status && i < d->spline_intervals; i++) {
+static ambulo_status check_breakpoints(const ambulo_problem_definition *d,
+                                       ambulo_diagnostics *list) {
+  for (int i = 0; d->breakpoints && i < d->spline_intervals; i++) {
     if (d->breakpoints[i + 1] > d->breakpoints[i]) continue;
-    status = REFUSE(list, "trajectory.breakpoints[%d] is %g s after %g s; expected rising times",
-                    i + 1, d->breakpoints[i + 1], d->breakpoints[i]);
+    return REFUSE(list, "trajectory.breakpoints[%d] is %g s after %g s; expected rising times",
+                  i + 1, d->breakpoints[i + 1], d->breakpoints[i]);
   }
-  return status ? status : check_places(d, list);
+  return AMBULO_OK;
 }
+
+/* -------------------------------------------------------------------------- terms */
 
 static const char *point_name(const ambulo_model *model, int index) {
   const ambulo_point *point = ambulo_model_point(model, index);
@@ -216,19 +201,7 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                   "objective[%d]: the kind of the term is %s (got %d); expected an "
                   "ambulo_term_kind",
                   t, term->kind ? "unknown" : "not set", (int)term->kind);
-  if (!(term->weight >= 0.0 && term->weight <= largest))
-    return REFUSE(list, "objective[%d] (%s): weight is %g; expected 0 to %g", t, info->name,
-                  term->weight, largest);
   int has = info->members;
-  if (has & AMBULO__TERM_SMOOTHING && !(term->smoothing > 0.0 && term->smoothing <= largest))
-    return REFUSE(list, "objective[%d] (%s): smoothing is %g; expected a positive number", t,
-                  info->name, term->smoothing);
-  if (has & AMBULO__TERM_POWER && !(term->power >= 2.0 && term->power <= 8.0))
-    return REFUSE(list, "objective[%d] (%s): power is %g; expected 2 to 8", t, info->name,
-                  term->power);
-  if (has & AMBULO__TERM_HEIGHT && !(term->height > 0.0 && term->height <= longest))
-    return REFUSE(list, "objective[%d] (%s): height is %g m; expected a positive length", t,
-                  info->name, term->height);
   if (has & AMBULO__TERM_LINE && !is_line(d->model, term->point))
     return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points that are apart",
                   t, info->name, point_name(d->model, term->point[0]),
@@ -273,28 +246,12 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
   return AMBULO_OK;
 }
 
-static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t,
-                                       ambulo_diagnostics *list) {
-  const ambulo_term *term = &d->terms[t];
-  int n = ambulo_model_coordinate_count(d->model);
-  char scale[64], offset[64], passive[64], strength[64], reference[64], tendon[64];
-  (void)snprintf(scale, sizeof scale, "objective[%d]: scale", t);
-  (void)snprintf(offset, sizeof offset, "objective[%d]: offset", t);
-  (void)snprintf(passive, sizeof passive, "objective[%d]: passive", t);
-  (void)snprintf(strength, sizeof strength, "objective[%d]: strength", t);
-  (void)snprintf(reference, sizeof reference, "objective[%d]: reference", t);
-  (void)snprintf(tendon, sizeof tendon, "objective[%d]: tendon", t);
-  int samples = d->intervals > 0 && d->intervals <= MAX_INTERVALS ? d->intervals + 1 : 0;
-  const number_range ranges[] = {
-      {scale, "", term->scale, n, -largest, largest, 0},
-      {offset, "", term->offset, n, -largest, largest, 0},
-      {passive, "", term->passive, 4 * n, -largest, largest, 0},
-      {strength, "", term->strength, 6 * n, -largest, largest, 0},
-      {reference, "", term->reference, n * samples, -largest, largest, 0},
-      {scale, "", term->device_scale, d->device_count, 0.0, largest, 0},
-      {tendon, " N m/rad", term->tendon, n, 0.0, largest, 0},
-  };
-  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+static ambulo_status check_numbers_of_term(const ambulo_problem_definition *d, int t,
+                                           ambulo_diagnostics *list) {
+  const ambulo__term_info *info = ambulo__term_info_of(d->terms[t].kind);
+  char owner[64];
+  (void)snprintf(owner, sizeof owner, "objective[%d] (%s): ", t, info->name);
+  return check_members(d, &ambulo__term_members, owner, &d->terms[t], info->members, list);
 }
 
 static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
@@ -302,7 +259,7 @@ static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diag
   double total = 0.0;
   for (int t = 0; t < d->term_count; t++) {
     ambulo_status one = check_term(d, t, list);
-    if (!one) one = check_term_arrays(d, t, list);
+    if (!one) one = check_numbers_of_term(d, t, list);
     if (!one) one = check_limits(d, t, list);
     if (one) status = one;
     total += d->terms[t].weight;
@@ -312,11 +269,12 @@ static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diag
   for (int i = 0; i < d->user_row_count; i++) {
     if (!d->user_rows[i].function || !d->user_rows[i].name || !d->user_rows[i].unit)
       status = REFUSE(list, "user row %d has no function, name or unit", i);
-    char place[48];
-    (void)snprintf(place, sizeof place, "the relation of user row %d", i);
-    ambulo_status chosen = check_choice(place, (int)d->user_rows[i].relation, AMBULO_NOT_NEGATIVE,
-                                        "AMBULO_EQUAL or AMBULO_NOT_NEGATIVE", list);
-    if (chosen) status = chosen;
+    int relation = (int)d->user_rows[i].relation;
+    if (relation < AMBULO_EQUAL || relation > AMBULO_NOT_NEGATIVE)
+      status = REFUSE(list,
+                      "the relation of user row %d is %s (got %d); expected AMBULO_EQUAL or "
+                      "AMBULO_NOT_NEGATIVE",
+                      i, relation ? "unknown" : "not set", relation);
     if (isnan(d->user_rows[i].from) || isnan(d->user_rows[i].to))
       status = REFUSE(list, "user row %d is asked for from %g s to %g s; expected times", i,
                       d->user_rows[i].from, d->user_rows[i].to);
@@ -324,11 +282,11 @@ static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diag
   return status;
 }
 
+/* --------------------------------------------------------------------------- ends */
+
 static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
   ambulo_status status = AMBULO_OK;
   int coordinates = ambulo_model_coordinate_count(d->model);
-  if (d->ends_order < 0 || d->ends_order > 2)
-    status = REFUSE(list, "ends.order is %d; expected 0, 1 or 2", d->ends_order);
   if (d->ends == AMBULO_ENDS_FREE && d->rise != 0.0)
     status =
         REFUSE(list, "ends.rise is %g with free ends; expected 0, or ends that match", d->rise);
@@ -344,37 +302,30 @@ static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagn
   return status;
 }
 
-static int listed(const void *array, int count) {
-  return count == 0 || (count > 0 && array);
-}
-
-static int arrays_are_there(const ambulo_problem_definition *d) {
-  return listed(d->contacts, d->contact_count) && listed(d->terms, d->term_count) &&
-         listed(d->end_values, d->end_value_count) && listed(d->tubes, d->tube_count) &&
-         listed(d->user_rows, d->user_row_count) && listed(d->obstacles, d->obstacle_count) &&
-         listed(d->reaches, d->reach_count) &&
-         listed(d->collision.pairs, d->collision.pair_count) &&
-         listed(d->devices, d->device_count) && listed(d->holds, d->hold_count);
+static ambulo_status check_strike_pitch(const double *pitch, ambulo_diagnostics *list) {
+  if ((isnan(pitch[0]) && isnan(pitch[1])) || pitch[0] < pitch[1]) return AMBULO_OK;
+  return REFUSE(list,
+                "constraints.strike_pitch is from %g to %g rad; expected rising angles, or both "
+                "AMBULO_OFF",
+                pitch[0], pitch[1]);
 }
 
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
                                        ambulo_diagnostics *diagnostics) {
-  if (!d || d->size != sizeof *d || !d->model || !arrays_are_there(d)) return AMBULO_E_ARGUMENT;
-  ambulo_status status = check_choices(d, diagnostics);
-  if (!status) status = check_grid(d, diagnostics);
-  ambulo_status terms = check_terms(d, diagnostics);
-  ambulo_status ends = check_ends(d, diagnostics);
-  if (!status) status = terms;
-  if (!status) status = ends;
-  if (!status) status = ambulo__tubes_check(d, diagnostics);
-  ambulo_status numbers[] = {check_task(d, diagnostics),
-                             check_clearance(&d->clearance, diagnostics),
-                             check_reaction(&d->ground_reaction, diagnostics),
-                             ambulo__collision_check(d, diagnostics),
-                             ambulo__devices_check(d, diagnostics),
-                             ambulo__holds_check(d, diagnostics)};
-  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-    if (numbers[i]) status = numbers[i];
-  }
+  const ambulo__structure *all = &ambulo__definition_members;
+  if (!d || d->size != sizeof *d || !d->model || !arrays_are_there(all, d))
+    return AMBULO_E_ARGUMENT;
+  ambulo_status status = check_members(d, all, "", d, 0, diagnostics);
+  if (!status) status = check_breakpoints(d, diagnostics);
+  if (!status) status = check_places(d, diagnostics);
+  ambulo_status others[] = {check_terms(d, diagnostics),
+                            check_ends(d, diagnostics),
+                            check_strike_pitch(d->strike_pitch, diagnostics),
+                            status ? AMBULO_OK : ambulo__tubes_check(d, diagnostics),
+                            ambulo__collision_check(d, diagnostics),
+                            ambulo__devices_check(d, diagnostics),
+                            ambulo__holds_check(d, diagnostics)};
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (!status) status = others[i];
   return status;
 }

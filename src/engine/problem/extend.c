@@ -3,7 +3,7 @@
  * The extended problem is built anew from the definition that the first one came to (its nodes,
  * its contacts, its pairs of capsules), with the additions behind, and shares its model. */
 #include "ambulo/extend.h"
-#include "problem/definition_take.h"
+#include "problem/definition.h"
 #include "problem/problem.h"
 
 #include <string.h>

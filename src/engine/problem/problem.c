@@ -15,7 +15,6 @@
 #include "contact/patch_rows.h"
 #include "contact/flight.h"
 #include "contact/sharing.h"
-#include "problem/definition_take.h"
 #include "problem/memory.h"
 #include "problem/mirror_terms.h"
 
@@ -220,43 +219,39 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *definition,
-                                             const ambulo_allocator *allocator,
-                                             ambulo_diagnostics *diagnostics,
-                                             ambulo_problem **problem) {
-  ambulo_status status = ambulo__definition_check(definition, diagnostics);
-  if (status) return status;
+ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo_problem *p = ambulo__alloc(&own, 1, sizeof *p);
   if (!p) return AMBULO_E_MEMORY;
   p->allocator = own;
   ambulo__row_table_init(&p->table, &own);
-  status = ambulo__definition_copy(definition, &own, &p->definition);
+  ambulo_status status = ambulo__definition_copy(definition, &own, &p->definition);
   if (!status) status = build(p, diagnostics);
   if (status) {
     ambulo_problem_free(p);
     return status;
   }
+  p->hash = ambulo__definition_hash(&p->definition, p->model);
   *problem = p;
   return AMBULO_OK;
 }
 
 /* with names of obstacles of its own */
-static ambulo_status create_named(const ambulo_problem_definition *definition,
-                                  const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
-  ambulo_status status = ambulo__definition_check(definition, diagnostics);
-  if (status || definition->obstacle_count == 0)
-    return status ? status
-                  : ambulo__problem_create_unnamed(definition, allocator, diagnostics, problem);
+static ambulo_status create(const ambulo_problem_definition *definition,
+                            const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                            ambulo_problem **problem) {
   ambulo_problem_definition named = *definition;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo_obstacle *obstacles = NULL;
   char *names = NULL;
-  status = ambulo__obstacles_copy(definition, &own, &obstacles, &names);
-  if (status) return status;
-  named.obstacles = obstacles;
-  status = ambulo__problem_create_unnamed(&named, allocator, diagnostics, problem);
+  ambulo_status status = ambulo__definition_check(definition, diagnostics);
+  if (!status && definition->obstacle_count > 0) {
+    status = ambulo__obstacles_copy(definition, &own, &obstacles, &names);
+    named.obstacles = obstacles;
+  }
+  if (!status) status = ambulo__problem_build(&named, allocator, diagnostics, problem);
   ambulo__free(&own, obstacles);
   if (status)
     ambulo__free(&own, names);
@@ -272,11 +267,9 @@ ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__taken_definition own;
   ambulo_status status = ambulo__definition_take(definition, allocator, &own);
-  if (!status) status = create_named(&own.definition, allocator, diagnostics, problem);
+  if (!status) status = create(&own.definition, allocator, diagnostics, problem);
   ambulo__definition_drop(&own);
-  if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
-  (*problem)->hash = ambulo__problem_hash_of(*problem);
-  return AMBULO_OK;
+  return ambulo__conclude(diagnostics, errors, status, NULL);
 }
 
 void ambulo_problem_free(ambulo_problem *p) {

@@ -2,6 +2,7 @@
 #ifndef AMBULO_PROBLEM_PROBLEM_H
 #define AMBULO_PROBLEM_PROBLEM_H
 
+#include "problem/definition.h"
 #include "problem/nlp.h"
 
 /* A problem of more rows is refused. */
@@ -16,23 +17,6 @@ ambulo_status ambulo__obstacles_copy(const ambulo_problem_definition *definition
                                      const ambulo_allocator *allocator, ambulo_obstacle **obstacles,
                                      char **names);
 
-/* What ambulo_problem_definition_default() sets. */
-
-/* definition_check.c: every check that needs no grid; all faults are reported. E_ARGUMENT for a
- * definition that did not come from ambulo_problem_definition_default(). */
-ambulo_status ambulo__definition_check(const ambulo_problem_definition *definition,
-                                       ambulo_diagnostics *diagnostics);
-/* Deep copy: arrays, names, scales, references (the model stays shared). E_MEMORY leaves
- * a half copy that ambulo__definition_free accepts. */
-ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
-                                      const ambulo_allocator *allocator,
-                                      ambulo_problem_definition *to);
-void ambulo__definition_free(const ambulo_allocator *allocator,
-                             ambulo_problem_definition *definition);
-/* A copy's pairs of capsules are these, which it frees, instead of those it had. */
-void ambulo__definition_set_pairs(const ambulo_allocator *allocator,
-                                  ambulo_problem_definition *definition, ambulo_capsule_pair *pairs,
-                                  int count);
 /* start_pose.c: unknowns x [variables] of a motion that rests in the model's start pose. */
 void ambulo__start_pose(const ambulo_problem *problem, double *x);
 /* The same problem on another grid: `intervals` time intervals and `spline_intervals`
@@ -48,13 +32,10 @@ ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int inter
 ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *base,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo_problem **extended);
-/* ambulo_problem_create without the hash, a quarter of its time: for grids that nobody names. */
-ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *definition,
-                                             const ambulo_allocator *allocator,
-                                             ambulo_diagnostics *diagnostics,
-                                             ambulo_problem **problem);
-/* FNV-1a over rows, terms, grid and link parameters, the same on every machine with
- * the same byte order. */
-unsigned long long ambulo__problem_hash_of(const ambulo_problem *problem);
+/* ambulo_problem_create of a definition that is known to be good, or that moves beyond the ranges
+ * of members a little; its obstacles have names that outlive it. */
+ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
 #endif

@@ -1,5 +1,5 @@
 /* problem/query.c - what a problem tells about itself. */
-#include "problem/definition_take.h"
+#include "problem/definition.h"
 #include "problem/problem.h"
 
 #include "base/instant.h"

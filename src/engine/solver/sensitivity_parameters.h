@@ -4,30 +4,8 @@
 #define AMBULO_SOLVER_SENSITIVITY_PARAMETERS_H
 
 #include "ambulo/sensitivity.h"
+#include "problem/members.h"
 #include "solver/partials.h"
-
-/* What a number is, which decides on its unit and on the change that a person can picture. */
-typedef enum ambulo__quantity {
-  AMBULO__STEP_LENGTH,   /* m: 1 cm */
-  AMBULO__SHORT_LENGTH,  /* m: 1 mm, of tolerances */
-  AMBULO__ANGLE,         /* rad: 1 degree */
-  AMBULO__SMALL_ANGLE,   /* rad: 0.1 degrees, of tolerances */
-  AMBULO__TIME,          /* s: 10 ms */
-  AMBULO__SPEED,         /* m/s: 0.1 */
-  AMBULO__TURNING_SPEED, /* rad/s: 0.1 */
-  AMBULO__MASS,          /* kg: 1 */
-  AMBULO__TORQUE,        /* N m: 1 */
-  AMBULO__FORCE,         /* N: 10 */
-  AMBULO__BODY_WEIGHT,   /* body weights: 0.01 */
-  AMBULO__TURNING_JOLT,  /* rad/s^2: 1 */
-  AMBULO__JOLT,          /* m/s^2: 0.1 */
-  AMBULO__LOADING_RATE,  /* body weights/s: 1 */
-  AMBULO__STRIDE_SHARE,  /* 1 % of the stride, of an event */
-  AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
-  AMBULO__TURNING_STIFF, /* N m/rad: 1, of a spring that has none yet */
-  AMBULO__STIFF,         /* N/m: 10 */
-  AMBULO__RATIO          /* any: 1 % of the value */
-} ambulo__quantity;
 
 enum { AMBULO__PARAMETER_TEXT = 320 };
 
@@ -100,6 +78,5 @@ ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
 
 /* Steps, shares and words; the largest share comes first. */
 void ambulo__parameters_say(ambulo__parameters *parameters, double objective);
-const char *ambulo__quantity_unit(ambulo__quantity quantity);
 
 #endif

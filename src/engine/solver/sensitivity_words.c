@@ -7,8 +7,7 @@
 #include <stdlib.h>
 
 typedef struct quantity_entry {
-  const char *unit;
-  double step;      /* in unit; of AMBULO__RATIO: share of the value */
+  double step;      /* in the unit; of AMBULO__RATIO: share of the value */
   const char *more; /* that step in words */
 } quantity_entry;
 
@@ -16,30 +15,26 @@ typedef struct quantity_entry {
 
 /* in the order of ambulo__quantity */
 static const quantity_entry quantities[] = {
-    {"m", 0.01, "1 cm more"},
-    {"m", 0.001, "1 mm more"},
-    {"rad", DEGREE, "1 degree more"},
-    {"rad", 0.1 * DEGREE, "0.1 degrees more"},
-    {"s", 0.01, "10 ms more"},
-    {"m/s", 0.1, "0.1 m/s more"},
-    {"rad/s", 0.1, "0.1 rad/s more"},
-    {"kg", 1.0, "1 kg more"},
-    {"N m", 1.0, "1 N m more"},
-    {"N", 10.0, "10 N more"},
-    {"body weights", 0.01, "0.01 body weights more"},
-    {"rad/s^2", 1.0, "1 rad/s^2 more"},
-    {"m/s^2", 0.1, "0.1 m/s^2 more"},
-    {"body weights/s", 1.0, "1 body weight/s more"},
-    {"", 0.01, "1 % of the stride later"},
-    {"s", 0.01, "10 ms later"},
-    {"N m/rad", 1.0, "1 N m/rad more"},
-    {"N/m", 10.0, "10 N/m more"},
-    {"", 0.01, "1 % more"},
+    {0.01, "1 cm more"},
+    {0.001, "1 mm more"},
+    {DEGREE, "1 degree more"},
+    {0.1 * DEGREE, "0.1 degrees more"},
+    {0.01, "10 ms more"},
+    {0.1, "0.1 m/s more"},
+    {0.1, "0.1 rad/s more"},
+    {1.0, "1 kg more"},
+    {1.0, "1 N m more"},
+    {10.0, "10 N more"},
+    {0.01, "0.01 body weights more"},
+    {1.0, "1 rad/s^2 more"},
+    {0.1, "0.1 m/s^2 more"},
+    {1.0, "1 body weight/s more"},
+    {0.01, "1 % of the stride later"},
+    {0.01, "10 ms later"},
+    {1.0, "1 N m/rad more"},
+    {10.0, "10 N/m more"},
+    {0.01, "1 % more"},
 };
-
-const char *ambulo__quantity_unit(ambulo__quantity quantity) {
-  return quantities[quantity].unit;
-}
 
 static void say(ambulo__parameter *p, double objective) {
   const quantity_entry *q = &quantities[p->quantity];

@@ -1,0 +1,203 @@
+/* problem/definition_defaults.c - defaults, and definitions by programs of older headers.
+ *
+ * A definition holds parts by value. In an older one they, and the whole, may be shorter:
+ *
+ *     ours    [ a ][ clearance .... ][ ground_reaction .. ][ b ][ collision ... ][ c ..... ]
+ *     theirs  [ a ][ clearance ][ ground_reaction ][ b ][ collision ][ c .. ]
+ *
+ * with the same a and b, between parts, and a beginning of c. The sizes stand at the beginning of
+ * a. Items of arrays follow the sizes of theirs (base/sized.h).
+ */
+#include "ambulo/evaluate.h"
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "problem/definition.h"
+#include "problem/term.h"
+
+#include <string.h>
+
+typedef ambulo_problem_definition definition;
+
+/* --------------------------------------------------------------------- defaults */
+
+#define FILL(name)                                                                                 \
+  void ambulo_##name##_fill(ambulo_##name *filled, size_t size) {                                  \
+    ambulo_##name usual;                                                                           \
+    ambulo__members_fill(&ambulo__##name##_members, &usual);                                       \
+    ambulo__sized_fill(filled, size, &usual, sizeof usual);                                        \
+  }
+FILL(contact)
+FILL(end_value)
+FILL(tube)
+FILL(user_row)
+FILL(ground_reaction)
+FILL(clearance)
+FILL(collision)
+FILL(capsule_pair)
+FILL(obstacle)
+FILL(reach)
+FILL(hold)
+
+AMBULO__FILL(ambulo_motion, {.size = size})
+
+void ambulo_device_fill(ambulo_device *filled, ambulo_device_kind kind, size_t size) {
+  ambulo_device usual;
+  ambulo__members_fill(&ambulo__device_members, &usual);
+  usual.kind = kind;
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
+}
+
+void ambulo_term_fill(ambulo_term *filled, ambulo_term_kind kind, size_t size) {
+  const ambulo__term_info *info = ambulo__term_info_of(kind);
+  ambulo_term usual;
+  ambulo__members_fill(&ambulo__term_members, &usual);
+  usual.kind = kind;
+  if (info && info->smoothing > 0.0) usual.smoothing = info->smoothing;
+  if (info && info->power > 0.0) usual.power = info->power;
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
+}
+
+void ambulo_extension_fill(ambulo_extension *filled) {
+  const ambulo_extension usual = {
+      .size = filled->size, .term_size = filled->term_size, .user_row_size = filled->user_row_size};
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
+}
+
+/* ------------------------------------------------------------- older definitions */
+
+enum { MOST_PARTS = 4, MOST_RUNS = 2 * MOST_PARTS + 1 };
+
+/* A run of bytes that both have. */
+typedef struct run {
+  size_t ours, theirs, length;
+} run;
+
+static size_t size_at(const definition *d, size_t at) {
+  size_t size;
+  memcpy(&size, (const char *)d + at, sizeof size);
+  return size;
+}
+
+static void set_size(definition *d, size_t at, size_t size) {
+  memcpy((char *)d + at, &size, sizeof size);
+}
+
+/* Fills `runs`, in order, and returns how many; 0: no header of this library or of an older one had
+ * these sizes. */
+static int runs_of(const definition *theirs, run runs[MOST_RUNS]) {
+  const ambulo__structure *s = &ambulo__definition_members;
+  size_t ours = 0, given = 0;
+  int known = 1, count = 0;
+  for (int i = 0; i < s->count && count + 2 < MOST_RUNS; i++) {
+    const ambulo__member *m = &s->members[i];
+    if (m->type != AMBULO__PART) continue;
+    size_t size = size_at(theirs, m->size_at), full = m->of->size;
+    known &= ambulo__sized_item(size, full) && size % sizeof(double) == 0;
+    runs[count++] = (run){ours, given, m->at - ours};
+    given += m->at - ours;
+    runs[count++] = (run){m->at, given, size < full ? size : full};
+    given += size;
+    ours = m->at + full;
+  }
+  size_t behind = sizeof(definition) - ours, left = theirs->size - given;
+  known &= theirs->size >= given && left <= behind;
+  runs[count++] = (run){ours, given, left < behind ? left : behind};
+  return known ? count : 0;
+}
+
+void ambulo_problem_definition_fill(ambulo_problem_definition *filled) {
+  definition usual;
+  run runs[MOST_RUNS];
+  ambulo__members_fill(&ambulo__definition_members, &usual);
+  memcpy(&usual, filled, offsetof(definition, name)); /* the sizes */
+  int count = runs_of(&usual, runs);
+  memset(filled, 0, usual.size); /* what a newer header has besides */
+  for (int i = 0; i < count; i++)
+    memcpy((char *)filled + runs[i].theirs, (const char *)&usual + runs[i].ours, runs[i].length);
+}
+
+/* defaults of an item of which `given` is the beginning */
+static void fill_item(const ambulo__structure *s, void *item, const void *given) {
+  int kind; /* the first member */
+  memcpy(&kind, given, sizeof kind);
+  if (s == &ambulo__term_members)
+    *(ambulo_term *)item = ambulo_term_default((ambulo_term_kind)kind);
+  else
+    ambulo__members_fill(s, item);
+}
+
+/* *array of `count` items; E_ARGUMENT: no header had their size */
+static ambulo_status take_items(ambulo__taken_definition *taken, const ambulo__structure *s,
+                                const void **array, int count, size_t size) {
+  if (!ambulo__sized_item(size, s->size)) return AMBULO_E_ARGUMENT;
+  if (size == s->size || !*array || count < 1) return AMBULO_OK;
+  char *longer = ambulo__alloc(&taken->allocator, (size_t)count, s->size);
+  if (!longer) return AMBULO_E_MEMORY;
+  for (size_t i = 0; i < (size_t)count; i++) {
+    const char *given = (const char *)*array + i * size;
+    fill_item(s, longer + i * s->size, given);
+    memcpy(longer + i * s->size, given, size);
+  }
+  *array = taken->longer[taken->count++] = longer;
+  return AMBULO_OK;
+}
+
+/* arrays of a structure of the definition, which is whole already */
+static ambulo_status take_arrays(ambulo__taken_definition *taken, const ambulo__structure *s,
+                                 void *part) {
+  definition *d = &taken->definition;
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < s->count && !status; i++) {
+    const ambulo__member *m = &s->members[i];
+    if (m->type == AMBULO__PART) status = take_arrays(taken, m->of, (char *)part + m->at);
+    if (m->type != AMBULO__ITEMS) continue;
+    const void *array = ambulo__member_array(m, part);
+    int count = (int)ambulo__member_length(m, d, part);
+    status = take_items(taken, m->of, &array, count, size_at(d, m->size_at));
+    memcpy((char *)part + m->at, &array, sizeof array);
+    set_size(d, m->size_at, m->of->size);
+  }
+  return status;
+}
+
+static void take_begin(ambulo__taken_definition *taken, const ambulo_allocator *allocator) {
+  *taken = (ambulo__taken_definition){.definition = ambulo_problem_definition_default(),
+                                      .allocator = ambulo__allocator_or_default(allocator)};
+}
+
+ambulo_status ambulo__definition_take(const ambulo_problem_definition *given,
+                                      const ambulo_allocator *allocator,
+                                      ambulo__taken_definition *taken) {
+  run runs[MOST_RUNS];
+  definition *d = &taken->definition;
+  take_begin(taken, allocator);
+  int count = given && given->size > offsetof(definition, name) ? runs_of(given, runs) : 0;
+  if (count == 0) return AMBULO_E_ARGUMENT;
+  for (int i = 0; i < count; i++)
+    memcpy((char *)d + runs[i].ours, (const char *)given + runs[i].theirs, runs[i].length);
+  d->size = sizeof *d;
+  d->clearance_size = sizeof d->clearance;
+  d->ground_reaction_size = sizeof d->ground_reaction;
+  d->collision_size = sizeof d->collision;
+  return take_arrays(taken, &ambulo__definition_members, d);
+}
+
+ambulo_status ambulo__extension_take(const ambulo_extension *given,
+                                     const ambulo_allocator *allocator,
+                                     ambulo__taken_definition *taken) {
+  ambulo_extension own = ambulo_extension_default();
+  definition *d = &taken->definition;
+  take_begin(taken, allocator);
+  if (!given || !ambulo__sized_take(&own, sizeof own, given)) return AMBULO_E_ARGUMENT;
+  d->terms = own.terms;
+  d->term_count = own.term_count;
+  d->term_size = own.term_size;
+  d->user_rows = own.user_rows;
+  d->user_row_count = own.user_row_count;
+  d->user_row_size = own.user_row_size;
+  return take_arrays(taken, &ambulo__definition_members, d);
+}
+
+void ambulo__definition_drop(ambulo__taken_definition *taken) {
+  for (int i = 0; i < taken->count; i++) ambulo__free(&taken->allocator, taken->longer[i]);
+}
