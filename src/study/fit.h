@@ -18,8 +18,8 @@
  * D + ridge |u|^2 / parameters.
  *
  * Reading order: fit.h, fit_file.c, fit_conditions.c, fit_distance.c, fit_keys.c, fit_overrides.c,
- * residual.h, trial.h, evaluate.h, evaluate.c, refresh.c, folder.h, damped_step.h, gauss_newton.c,
- * direct_search.c, fit_run.c, fitted_problem.h, outcome.h, fit_describe.c.
+ * fit_residual.h, fit_trial.h, fit_evaluate.h, fit_search.c, fit_run.c, fitted_problem.h,
+ * fit_outcome.h.
  */
 #ifndef AMBULO_STUDY_FIT_H
 #define AMBULO_STUDY_FIT_H
@@ -97,12 +97,6 @@ typedef struct ambulo__fit_condition {
   const ambulo__yaml_node *node, *reference_node, *set_node, *curves_node;
 } ambulo__fit_condition;
 
-typedef enum ambulo__fit_method {
-  AMBULO__FIT_GAUSS_NEWTON,
-  AMBULO__FIT_BOBYQA,
-  AMBULO__FIT_SBPLX
-} ambulo__fit_method;
-
 struct ambulo_fit {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics; /* while loading */
@@ -118,8 +112,7 @@ struct ambulo_fit {
   int residuals; /* of all fitted conditions */
   double correlation, range_cost, cap;
   ambulo_compare_options compare;
-  ambulo__fit_method method;
-  int iterations; /* Gauss-Newton; evaluations of the others */
+  int iterations;
   double ridge, tolerance;
   double case_seconds;
   int case_megabytes;

@@ -118,24 +118,21 @@ static ambulo_status read_parameters(ambulo_fit *fit, const ambulo__yaml_node *n
 /* --------------------------------------------------------------- other sections */
 
 static void read_method(ambulo_fit *fit, const ambulo__yaml_node *node) {
-  static const char *const kinds[] = {"gauss_newton", "bobyqa", "sbplx"};
   fit->iterations = 6;
   if (!node) return;
   const ambulo__yaml_node *kind = ambulo__yaml_get(node, "kind");
-  fit->method = (ambulo__fit_method)ambulo__yaml_choice(kind, kinds, 3, 0);
-  int is_direct = fit->method != AMBULO__FIT_GAUSS_NEWTON;
-  if (is_direct)
-    fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "evaluations"), 1, 100000, 100);
-  else
-    fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "iterations"), 0, 1000, 6);
+  const ambulo__yaml_node *former = ambulo__yaml_get(node, "evaluations");
+  if (kind && strcmp(ambulo__yaml_text(kind), "gauss_newton") != 0) former = kind;
+  if (former)
+    (void)ambulo__yaml_error(former, AMBULO_E_SCHEMA,
+                             "leave out 'kind' and 'evaluations'; 'iterations' limits the search",
+                             "the methods bobyqa and sbplx are no longer offered (got '%s'); "
+                             "expected gauss_newton",
+                             ambulo__yaml_text(former));
+  fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "iterations"), 0, 1000, 6);
   fit->ridge = ambulo__yaml_number_in(ambulo__yaml_get(node, "ridge"), 0.0, 1e6, fit->ridge);
   fit->tolerance =
       ambulo__yaml_number_in(ambulo__yaml_get(node, "tolerance"), 0.0, 1.0, fit->tolerance);
-  if (fit->method == AMBULO__FIT_BOBYQA && fit->parameters < 2)
-    (void)ambulo__yaml_error(kind, AMBULO_E_SCHEMA, NULL,
-                             "BOBYQA takes 2 parameters or more (got %d); expected gauss_newton or "
-                             "sbplx",
-                             fit->parameters);
   ambulo__yaml_close(node);
 }
 

@@ -145,7 +145,6 @@ static void write_distance(const ambulo__fit_outcome *o, ambulo__json *json) {
 }
 
 ambulo_status ambulo__fit_json(const ambulo__fit_outcome *o, ambulo__text_buffer *text) {
-  static const char *const methods[] = {"gauss_newton", "bobyqa", "sbplx"};
   ambulo__json json = {text, 0, 1};
   ambulo_versions versions;
   ambulo_versions_get(&versions);
@@ -154,7 +153,7 @@ ambulo_status ambulo__fit_json(const ambulo__fit_outcome *o, ambulo__text_buffer
   ambulo__json_text(&json, "name", o->fit->name);
   ambulo__json_text(&json, "version", versions.ambulo);
   ambulo__json_text(&json, "problem", o->fit->problem);
-  ambulo__json_text(&json, "method", methods[o->fit->method]);
+  ambulo__json_text(&json, "method", "gauss_newton");
   ambulo__json_text(&json, "ended_by", ambulo__fit_ending_name(o->ending));
   ambulo__json_text(&json, "stuck_condition",
                     o->stuck < 0 ? NULL : o->fit->condition[o->stuck].name);

@@ -47,6 +47,5 @@ const char *ambulo__fit_ending_name(ambulo_fit_ending ending) {
 int ambulo__fit_expected(const ambulo_fit *fit) {
   int fitted = 0;
   for (int c = 0; c < fit->conditions; c++) fitted += !fit->condition[c].held_out;
-  int each = fit->method == AMBULO__FIT_GAUSS_NEWTON ? fit->parameters + CANDIDATES : 1;
-  return 3 * fit->conditions - fitted + fit->iterations * each * fitted;
+  return 3 * fit->conditions - fitted + fit->iterations * (fit->parameters + CANDIDATES) * fitted;
 }

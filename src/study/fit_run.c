@@ -1,4 +1,4 @@
-/* study/fit_run.c - ambulo_fit_run: folder, first solves, method, held-out conditions, results.
+/* study/fit_run.c - ambulo_fit_run: folder, first solves, search, held-out conditions, results.
  *
  * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml`
  * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
@@ -137,9 +137,7 @@ static ambulo_status improve(run *r) {
   ambulo__fit_step start = {first->distance, first->cost, (double)NAN, 0, "start"};
   ambulo_status status = note_step(r, &start);
   if (status) return status;
-  if (r->fit->method == AMBULO__FIT_GAUSS_NEWTON)
-    return ambulo__fit_gauss_newton(&task, best, o->sensitivity, &o->ending, &o->stuck);
-  return ambulo__fit_direct_search(&task, r->fit->method, best, &o->ending);
+  return ambulo__fit_search(&task, best, o->sensitivity, &o->ending, &o->stuck);
 }
 
 /* held-out conditions at the best parameters, each from where it began; then all from zero, which

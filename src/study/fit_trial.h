@@ -1,5 +1,5 @@
 /* study/fit_trial.h - the problem with its parameters somewhere, solved in every condition; and
- * what a method (Gauss-Newton, a direct search) is given to find better ones. */
+ * what the search for better ones is given. */
 #ifndef AMBULO_STUDY_FIT_TRIAL_H
 #define AMBULO_STUDY_FIT_TRIAL_H
 
@@ -36,10 +36,10 @@ typedef struct ambulo__fit_step {
   double distance, cost; /* of the best trial after it */
   double damping;        /* of the accepted candidate; NaN: none */
   int dropped;           /* columns of the Jacobian that are no derivatives */
-  const char *accepted;  /* "candidate", "difference", "evaluation", "none", "start" */
+  const char *accepted;  /* "candidate", "difference", "none", "start" */
 } ambulo__fit_step;
 
-/* What a method is given. */
+/* What the search is given. */
 typedef struct ambulo__fit_task {
   ambulo__fit_sizes sizes;
   const double *lower, *upper; /* [parameters] of u */
@@ -61,12 +61,10 @@ typedef struct ambulo__fit_task {
 /* Cost of an evaluated trial: D + ridge |u|^2 / parameters. */
 double ambulo__fit_cost(const ambulo__fit_task *task, const ambulo__fit_trial *trial);
 
-/* gauss_newton.c, direct_search.c: from *best, an evaluated trial, to a better one. sensitivity
- * [parameters]: |dr/du_i| where it was found last; NaN where it was not. *stuck: the condition
- * whose solves all failed. Errors: what evaluate and note return, E_MEMORY. */
-ambulo_status ambulo__fit_gauss_newton(const ambulo__fit_task *task, ambulo__fit_trial *best,
-                                       double *sensitivity, ambulo_fit_ending *ending, int *stuck);
-ambulo_status ambulo__fit_direct_search(const ambulo__fit_task *task, ambulo__fit_method method,
-                                        ambulo__fit_trial *best, ambulo_fit_ending *ending);
+/* fit_search.c: from *best, an evaluated trial, to a better one. sensitivity [parameters]:
+ * |dr/du_i| where it was found last; NaN where it was not. *stuck: the condition whose solves all
+ * failed. Errors: what evaluate, refresh and note return, E_MEMORY. */
+ambulo_status ambulo__fit_search(const ambulo__fit_task *task, ambulo__fit_trial *best,
+                                 double *sensitivity, ambulo_fit_ending *ending, int *stuck);
 
 #endif

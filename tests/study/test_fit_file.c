@@ -14,7 +14,6 @@ static void a_fit_is_read(void **state) {
   assert_close(f->parameter[0].lower, log(0.05) / 0.3, 1e-12);
   assert_int_equal(f->parameter[1].scale, AMBULO__FIT_LINEAR);
   assert_close(f->parameter[1].lower, -5.0, 1e-12);
-  assert_int_equal(f->method, AMBULO__FIT_GAUSS_NEWTON);
   assert_int_equal(f->iterations, 3);
   assert_close(f->ridge, 0.5, 0.0);
   assert_close(f->tolerance, 0.1, 0.0);
@@ -34,9 +33,10 @@ static void defaults(void **state) {
   assert_close(f->range_cost, 0.8, 0.0);
   assert_close(f->case_seconds, 60.0, 0.0);
   ambulo_fit_free(f);
-  f = fit_of(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE "method: {kind: bobyqa}\n");
-  assert_int_equal(f->method, AMBULO__FIT_BOBYQA);
-  assert_int_equal(f->iterations, 100);
+  f = fit_of(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE
+             "method: {kind: gauss_newton, iterations: 3, ridge: 0}\n");
+  assert_int_equal(f->iterations, 3);
+  assert_close(f->ridge, 0.0, 0.0);
   ambulo_fit_free(f);
 }
 
@@ -47,8 +47,11 @@ static void what_is_no_fit(void **state) {
               "did you mean 'method'?");
   fit_refused(state,
               FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE
-              "method: {kind: bobyqa, iterations: 3}\n",
-              "unknown key 'iterations'");
+              "method: {kind: bobyqa, evaluations: 60}\n",
+              "error[E_SCHEMA]: the methods bobyqa and sbplx are no longer offered (got 'bobyqa')");
+  fit_refused(state,
+              FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE "method: {evaluations: 60}\n",
+              "no longer offered (got '60')");
 }
 
 #define ONE(text) FIT_HEAD "parameters:\n  - " text "\n" FIT_CONDITIONS FIT_DISTANCE

@@ -155,15 +155,6 @@ static void the_truth_is_found(void **state) {
   ambulo_fit_free(fit);
 }
 
-static void by_direct_search(void **state) {
-  ambulo_fit *fit = truth_fit(state, "method: {kind: bobyqa, evaluations: 60, ridge: 0}\n");
-  ambulo_fit_options o = usual(2);
-  const char *folder = scratch_path(state, "out");
-  assert_int_equal(run(fit, folder, &o, NULL, NULL, NULL), AMBULO_OK);
-  check_truth(folder, 0.1);
-  ambulo_fit_free(fit);
-}
-
 typedef struct stopper {
   int after; /* solves */
 } stopper;
@@ -279,7 +270,6 @@ int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {
       TEST(the_truth_is_found),
-      TEST(by_direct_search),
       TEST(neither_workers_nor_stops_matter),
       TEST(stopped_before_anything),
       TEST(first_solves_that_fail),

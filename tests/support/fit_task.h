@@ -1,9 +1,10 @@
-/* tests/support/fit_task.h - a made-up fit for the methods: residuals by formula in place of
+/* tests/support/fit_task.h - a made-up fit for the search: residuals by formula in place of
  * solves.
  *
- * Two parameters u, two conditions of two residuals each:
+ * Two parameters u, two conditions of two residuals each, and one that is held out:
  *     r = (10 (u_1 - u_0^2), 1 - u_0, 0.3 (u_0 + u_1 - 2), 0)            Rosenbrock and more
- * divided by `scale`; least, 0, at u = (1, 1). What goes wrong is asked for by the members. */
+ * or, if `linear`, r = (u_0 + u_1 - 2, 0.1 (u_0 - u_1), 0, 0), divided by `scale`; least, 0, at u =
+ * (1, 1). What goes wrong is asked for by the members. */
 #ifndef AMBULO_TESTS_FIT_TASK_H
 #define AMBULO_TESTS_FIT_TASK_H
 
@@ -13,12 +14,13 @@
 
 typedef struct fit_made_up {
   double scale;
-  double wall; /* u_0 above it is another valley: all residuals change by 5; 0: none */
-  int fails;   /* 1: condition 1 is never solved away from the start; 2: nowhere */
+  int linear;
+  int fails;   /* condition 1 is solved 1: at the start only; 2: nowhere; 3: where u_0 = 0 */
   int stop_at; /* after so many trials the caller stops; 0: never */
   int evaluated, rounds, refreshed, notes;
-  double noted; /* last cost */
-  int dropped;  /* columns, in all */
+  double noted;   /* last cost */
+  int dropped;    /* columns, in all */
+  double damping; /* of the last candidate */
   fail_alloc memory;
   ambulo_allocator allocator;
   double lower[2], upper[2];
@@ -26,17 +28,21 @@ typedef struct fit_made_up {
 } fit_made_up;
 
 static inline void fit_made_up_score(fit_made_up *w, ambulo__fit_trial *t, int is_start) {
-  double a = t->u[0], b = t->u[1], jump = w->wall != 0.0 && a > w->wall ? 5.0 : 0.0;
-  const double r[4] = {10.0 * (b - a * a), 1.0 - a, 0.3 * (a + b - 2.0), 0.0};
+  double a = t->u[0], b = t->u[1];
+  const double curved[4] = {10.0 * (b - a * a), 1.0 - a, 0.3 * (a + b - 2.0), 0.0};
+  const double linear[4] = {a + b - 2.0, 0.1 * (a - b), 0.0, 0.0};
+  const double *r = w->linear ? linear : curved;
+  int fails = w->fails == 2 || (w->fails == 1 && !is_start) || (w->fails == 3 && a != 0.0);
   t->distance = 0.0;
   for (int k = 0; k < 4; k++) {
-    int failed = k >= 2 && (w->fails == 2 || (w->fails == 1 && !is_start));
-    t->residual[k] = failed ? 3.0 : r[k] / w->scale + jump;
+    t->residual[k] = k >= 2 && fails ? 3.0 : r[k] / w->scale;
     t->distance += t->residual[k] * t->residual[k];
   }
   t->solved[0] = 1;
-  t->solved[1] = !(w->fails == 2 || (w->fails == 1 && !is_start));
+  t->solved[1] = !fails;
   t->index[0] = t->index[1] = w->evaluated;
+  t->index[2] = is_start ? 0 : -1; /* held out: solved at the start only */
+  t->solved[2] = is_start ? 1 : 0;
   t->complete = 1;
 }
 
@@ -51,6 +57,7 @@ static inline ambulo_status fit_made_up_evaluate(void *user, const ambulo__fit_t
     trials[i].complete = 0;
     if (w->stop_at && w->evaluated >= w->stop_at) continue;
     w->evaluated++;
+    (void)sscanf(trials[i].label, "damping %lf", &w->damping);
     fit_made_up_score(w, &trials[i], 0);
   }
   return AMBULO_OK;
@@ -81,7 +88,7 @@ static inline void fit_made_up_open(fit_made_up *w, ambulo__fit_trial **best) {
     w->lower[0] = w->lower[1] = -8.0;
     w->upper[0] = w->upper[1] = 8.0;
   }
-  w->task = (ambulo__fit_task){.sizes = {2, 4, 2, 1},
+  w->task = (ambulo__fit_task){.sizes = {2, 4, 3, 1},
                                .lower = w->lower,
                                .upper = w->upper,
                                .tolerance = 1e-4,
