@@ -6,13 +6,8 @@
  * compare_subject.c, compare_curve.h, compare_score.h, compare.c, compare_doubt.h,
  * compare_cycles.h.
  */
-#include "people/compare_curve.h"
-#include "ambulo/tools/compare.h"
+#include "people/compare.h"
 #include "base/sized.h"
-#include "people/compare_cycles.h"
-#include "people/compare_doubt.h"
-#include "people/compare_people.h"
-#include "people/compare_score.h"
 #include "formats/json_text.h"
 
 #include <math.h>

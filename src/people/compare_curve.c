@@ -1,8 +1,13 @@
-/* people/compare_curve.c - see compare_curve.h. */
-#include "people/compare_curve.h"
-#include "ambulo/tools/compare.h"
+/* people/compare_curve.c - curves over the cycle: of one foot or the mean of both, as a table, and
+ * the columns they come from (compare.h). */
+#include "people/compare.h"
+
+#include "base/text_buffer.h"
+#include "formats/atomic_file.h"
+#include "formats/output_check.h"
 
 #include <math.h>
+#include <string.h>
 
 /* sides further apart than this share of the range are not averaged */
 static const double alike = 0.1;
@@ -89,5 +94,242 @@ ambulo_status ambulo__sample_curve(ambulo__sampler *s, const ambulo__map_entry *
     }
     values[i] += shift;
   }
+  return AMBULO_OK;
+}
+
+enum { POINTS = 101 };
+
+typedef struct cycles {
+  const ambulo_allocator *allocator;
+  ambulo__map map;                 /* of all curves */
+  double *values, *deviations;     /* [curves][POINTS] */
+  const ambulo__map_entry **entry; /* [curves] */
+  int *strides;                    /* [curves] */
+  int count;
+} cycles;
+
+ambulo_status ambulo__cycles_check(const char *motion, const char *people,
+                                   const ambulo_compare_options *options,
+                                   ambulo_diagnostics *diagnostics) {
+  const char *inputs[] = {motion, people, options->forces};
+  if (!options->cycles) return AMBULO_OK;
+  return ambulo__output_check(options->cycles, inputs, 3, options->overwrite, diagnostics);
+}
+
+/* 1 for entries that go by the curve's own name */
+static int is_own(const ambulo__map_entry *entry) {
+  return strcmp(entry->reference, entry->curve) == 0;
+}
+
+static ambulo_status collect(ambulo__sampler *sampler, cycles *c) {
+  double percents[POINTS];
+  for (int i = 0; i < POINTS; i++) percents[i] = (double)i;
+  for (int i = 0; i < c->map.count; i++) {
+    size_t at = (size_t)c->count * POINTS;
+    if (!is_own(&c->map.entries[i])) continue;
+    ambulo_status status =
+        ambulo__sample_curve(sampler, &c->map.entries[i], percents, POINTS, c->values + at,
+                             c->deviations + at, &c->strides[c->count]);
+    if (status) return status;
+    c->entry[c->count] = &c->map.entries[i];
+    c->count += c->strides[c->count] > 0;
+  }
+  return AMBULO_OK;
+}
+
+static void append_number(ambulo__text_buffer *text, double value) {
+  double rounded = round(value * 1e6) / 1e6;
+  ambulo__text_append(text, ",");
+  ambulo__text_append_number(text, rounded == 0.0 ? 0.0 : rounded);
+}
+
+static void print(const ambulo__sampler *sampler, const cycles *c, ambulo__text_buffer *text) {
+  const char *file = sampler->cycle->motion_path;
+  const ambulo__subject *subject = sampler->cycle->subject;
+  ambulo__text_append(text,
+                      AMBULO__OWN_MARK " cycles: percent of the cycle from heel strike to heel "
+                                       "strike; means over strides and feet\n");
+  ambulo__text_append_format(text, "# source: %s", file);
+  if (subject) {
+    int left = subject->count[0] - 1, right = subject->count[1] - 1;
+    ambulo__text_append_format(text, ", strides: %d left, %d right", left > 0 ? left : 0,
+                               right > 0 ? right : 0);
+  }
+  ambulo__text_append(text, "\npercent");
+  for (int i = 0; i < c->count; i++) {
+    ambulo__text_append_format(text, ",%s", c->entry[i]->reference);
+    if (c->strides[i] > 1 && subject)
+      ambulo__text_append_format(text, ",%s sd", c->entry[i]->reference);
+  }
+  ambulo__text_append(text, "\n");
+  for (int i = 0; i < c->count; i++) {
+    const char *unit = ambulo__curve_unit_name(c->entry[i]->unit);
+    ambulo__text_append_format(text, c->strides[i] > 1 && subject ? ",%s,%s" : ",%s", unit, unit);
+  }
+  for (int p = 0; p < POINTS; p++) {
+    ambulo__text_append_format(text, "\n%d", p);
+    for (int i = 0; i < c->count; i++) {
+      append_number(text, c->values[i * POINTS + p]);
+      if (c->strides[i] > 1 && subject) append_number(text, c->deviations[i * POINTS + p]);
+    }
+  }
+  ambulo__text_append(text, "\n");
+}
+
+ambulo_status ambulo__cycles_write(ambulo__sampler *sampler) {
+  const ambulo_allocator *a = &sampler->cycle->allocator;
+  const char *file = sampler->options->cycles;
+  cycles c = {.allocator = a};
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, a);
+  ambulo_status status = ambulo__map_default(AMBULO__LAYOUT_WIDE, a, &c.map);
+  size_t room = (size_t)c.map.count;
+  c.values = ambulo__alloc(a, room * POINTS, sizeof *c.values);
+  c.deviations = ambulo__alloc(a, room * POINTS, sizeof *c.deviations);
+  c.entry = ambulo__alloc(a, room, sizeof *c.entry);
+  c.strides = ambulo__alloc(a, room, sizeof *c.strides);
+  if (!status && (!c.values || !c.deviations || !c.entry || !c.strides)) status = AMBULO_E_MEMORY;
+  if (!status) status = collect(sampler, &c);
+  if (!status) {
+    print(sampler, &c, &text);
+    status = ambulo__text_status(&text);
+  }
+  if (!status)
+    status = ambulo__write_file(file, ambulo__text_data(&text), text.length, 1, a,
+                                sampler->cycle->diagnostics);
+  ambulo__text_free(&text);
+  ambulo__free(a, c.values);
+  ambulo__free(a, c.deviations);
+  ambulo__free(a, (void *)c.entry);
+  ambulo__free(a, c.strides);
+  ambulo__map_free(&c.map);
+  return status;
+}
+
+/* expressions over the columns of motion.csv (compare_map.h). */
+
+enum { NAME_SIZE = 256 };
+
+static const char *const feet[] = {"left", "right"};
+
+/* copies from[0..length) and puts the side in place of {side} and {foot}; 0 if it is too long */
+static int expand(const char *from, size_t length, ambulo__cycle_side side, char name[NAME_SIZE]) {
+  size_t used = 0, i = 0;
+  while (i < length) {
+    char letter[2] = {from[i], '\0'};
+    const char *piece = letter;
+    size_t step = 1;
+    if (length - i >= 6 && memcmp(from + i, "{side}", 6) == 0) {
+      letter[0] = side == AMBULO__CYCLE_LEFT ? 'l' : 'r';
+      step = 6;
+    } else if (length - i >= 6 && memcmp(from + i, "{foot}", 6) == 0) {
+      piece = feet[side];
+      step = 6;
+    }
+    size_t size = strlen(piece);
+    if (used + size >= NAME_SIZE) return 0;
+    memcpy(name + used, piece, size);
+    used += size;
+    i += step;
+  }
+  name[used] = '\0';
+  return 1;
+}
+
+/* the same of a person's own motion */
+static void take_of_subject(const ambulo__motion *table, const char *name, double factor,
+                            int product, double *values, int *found) {
+  int column = ambulo__motion_column(table, name);
+  *found = column >= 0;
+  for (int k = 0; *found && k < table->rows; k++) {
+    double value = table->values[(size_t)k * (size_t)table->columns + (size_t)column];
+    values[k] = product ? values[k] * value : values[k] + factor * value;
+  }
+}
+
+/* values += factor * column (or *= when product); 0 in *found if there is no such column */
+static ambulo_status take_column(ambulo__cycle *c, const char *name, double factor, int product,
+                                 double *values, int *found) {
+  int column = -1;
+  if (c->subject) {
+    take_of_subject(c->subject->table, name, factor, product, values, found);
+    return AMBULO_OK;
+  }
+  ambulo_status status = ambulo__sheet_find_one(&c->sheet, 0, name, c->diagnostics, &column);
+  if (status) return status;
+  *found = column >= 0;
+  for (int k = 0; *found && k < c->rows; k++) {
+    double value;
+    status = ambulo__sheet_number(&c->sheet, k + 1, column, name, c->diagnostics, &value);
+    if (status) return status;
+    values[k] = product ? values[k] * value : values[k] + factor * value;
+  }
+  return AMBULO_OK;
+}
+
+/* grf.FOOT.up, grf.FOOT.forward: name ends with `direction` */
+static ambulo_status take_component(ambulo__cycle *c, char *name, const char *direction,
+                                    double *values, int *found) {
+  const double *axis = strcmp(direction, "up") == 0 ? c->up : c->forward;
+  char *end = name + strlen(name) - strlen(direction);
+  for (int i = 0; i < 3; i++) {
+    end[0] = "xyz"[i];
+    end[1] = '\0';
+    ambulo_status status = take_column(c, name, axis[i], 0, values, found);
+    if (status || !*found) return status;
+  }
+  return AMBULO_OK;
+}
+
+/* power.NAME = tau.NAME qd.NAME; scratch [rows] */
+static ambulo_status take_power(ambulo__cycle *c, const char *name, double *scratch, double *values,
+                                int *found) {
+  char column[NAME_SIZE + 8];
+  const char *coordinate = name + strlen("power.");
+  memset(scratch, 0, (size_t)c->rows * sizeof *scratch);
+  memcpy(column, "tau.", 5);
+  memcpy(column + 4, coordinate, strlen(coordinate) + 1);
+  ambulo_status status = take_column(c, column, 1.0, 0, scratch, found);
+  if (status || !*found) return status;
+  memcpy(column, "qd.", 4);
+  memcpy(column + 3, coordinate, strlen(coordinate) + 1);
+  status = take_column(c, column, 1.0, 1, scratch, found);
+  for (int k = 0; !status && *found && k < c->rows; k++) values[k] += scratch[k];
+  return status;
+}
+
+static int ends_with(const char *text, const char *end) {
+  size_t length = strlen(text), size = strlen(end);
+  return length >= size && strcmp(text + length - size, end) == 0;
+}
+
+ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
+                                    ambulo__cycle_side side, double *values, int *found) {
+  double *scratch = c->scratch + 3 * (size_t)c->rows;
+  int any = 0;
+  memset(values, 0, (size_t)c->rows * sizeof *values);
+  for (const char *at = expression; at;) {
+    const char *plus = strchr(at, '+');
+    size_t length = plus ? (size_t)(plus - at) : strlen(at);
+    char name[NAME_SIZE];
+    int has = 0;
+    ambulo_status status = AMBULO_OK;
+    if (expand(at, length, side, name)) {
+      int force = strncmp(name, "grf.", 4) == 0;
+      if (force && ends_with(name, ".up")) {
+        status = take_component(c, name, "up", values, &has);
+      } else if (force && ends_with(name, ".forward")) {
+        status = take_component(c, name, "forward", values, &has);
+      } else if (strncmp(name, "power.", 6) == 0) {
+        status = take_power(c, name, scratch, values, &has);
+      } else {
+        status = take_column(c, name, 1.0, 0, values, &has);
+      }
+    }
+    if (status) return status;
+    any |= has;
+    at = plus ? plus + 1 : NULL;
+  }
+  *found = any;
   return AMBULO_OK;
 }

@@ -1,6 +1,5 @@
 /* people/compare_cycle.c - strikes, body mass, and curves over percents (compare_cycle.h). */
-#include "people/compare_cycle.h"
-#include "ambulo/tools/compare.h"
+#include "people/compare.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
  * positive. Pelvis angles are those of the side that strikes: with x forward, y up, z right, a
  * positive list lowers the right side and a positive rotation brings the right side forward.
  */
-#include "people/compare_map.h"
+#include "people/compare.h"
 
 #include <string.h>
 

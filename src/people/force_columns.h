@@ -17,7 +17,7 @@
 
 #include "ambulo/model.h"
 #include "formats/motion_file.h"
-#include "people/doubt.h"
+#include "people/plausibility.h"
 
 typedef struct ambulo__force_group {
   char name[AMBULO__MOTION_MAX_NAME + 16], tag[AMBULO__MOTION_MAX_NAME + 1];

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "people/filtering.h"
+#include "people/motion_fit.h"
 #include "model/model.h"
 
 /* of the body weight: a foot that carries less may lack its point */

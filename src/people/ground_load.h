@@ -15,7 +15,7 @@
 #define AMBULO_PEOPLE_GROUND_LOAD_H
 
 #include "ambulo/tools/inverse.h"
-#include "people/doubt.h"
+#include "people/plausibility.h"
 #include "people/force_columns.h"
 
 typedef struct ambulo__ground_load {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "people/filtering.h"
+#include "people/motion_fit.h"
 #include "mechanics/pose.h"
 #include "model/model.h"
 

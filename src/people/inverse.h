@@ -4,8 +4,8 @@
 
 #include "ambulo/tools/inverse.h"
 #include "base/alloc.h"
+#include "base/diagnostics.h"
 #include "formats/motion_file.h"
-#include "people/doubt.h"
 #include "people/ground_load.h"
 #include "people/hand_load.h"
 

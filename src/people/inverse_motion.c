@@ -4,14 +4,14 @@
  * through the values (degree 5; 3 with fewer than 6 rows), accelerations that it lacks the slopes
  * of one through its rates, or the second derivative of the one through the values. After a filter
  * everything comes from the filtered values. */
-#include <math.h>
-#include <string.h>
+#include "people/inverse.h"
 
 #include "formats/motion_columns.h"
-#include "people/filtering.h"
-#include "people/inverse.h"
 #include "model/model.h"
 #include "people/motion_fit.h"
+
+#include <math.h>
+#include <string.h>
 
 static const double radian = 3.14159265358979323846 / 180.0;
 

@@ -5,6 +5,7 @@
 #ifndef AMBULO_PEOPLE_MOTION_FIT_H
 #define AMBULO_PEOPLE_MOTION_FIT_H
 
+#include "base/diagnostics.h"
 #include "formats/motion_file.h"
 #include "trajectory/basis.h"
 
@@ -22,5 +23,21 @@ void ambulo__motion_fit_free(ambulo__motion_fit *fit); /* accepts NULL */
  * q, qd, qdd [count][columns], each may be NULL. */
 void ambulo__motion_fit_at(const ambulo__motion_fit *fit, const double *times, int count, double *q,
                            double *qd, double *qdd);
+
+/* A low-pass filter that a user asked for, on the rows of a file. */
+typedef struct ambulo__filtering {
+  const double *time; /* [rows], in units of time_unit seconds */
+  int rows;
+  double time_unit;
+  double cutoff;             /* Hz */
+  int order;                 /* of the whole filter (trajectory/butterworth.h) */
+  const char *option, *file; /* for messages */
+  ambulo_diagnostics *diagnostics;
+} ambulo__filtering;
+
+/* Filters values[rows][columns]. Rows must be equally spaced, but for rounding of the times (a
+ * tenth of a step), and the cut-off below half their rate. Errors: E_SCHEMA, E_MEMORY. */
+ambulo_status ambulo__filter(const ambulo__filtering *filtering, double *values, int columns,
+                             const ambulo_allocator *allocator);
 
 #endif

@@ -1,7 +1,7 @@
 /* show/approach_json.c - see approach_json.h. */
 #include "show/approach_json.h"
 
-#include "people/approach.h"
+#include "people/stride_measures.h"
 
 enum { PER_INTERVAL = 10 };
 

@@ -1,7 +1,7 @@
 /* show/economy_json.c - see economy_json.h. */
 #include "show/economy_json.h"
 
-#include "people/economy.h"
+#include "people/stride_measures.h"
 
 #include <math.h>
 

@@ -10,7 +10,7 @@
 #include "base/vector.h"
 #include "contact/flight.h"
 #include "model/neutral_pose.h"
-#include "people/strikes.h"
+#include "people/stride.h"
 
 static const double level = 0.01; /* rad: ground that rises by less */
 static const double degrees = 57.295779513082321;

@@ -14,7 +14,7 @@
 #ifndef AMBULO_SHOW_GAIT_PEOPLE_H
 #define AMBULO_SHOW_GAIT_PEOPLE_H
 
-#include "people/compare_people.h"
+#include "people/compare.h"
 #include "show/skeleton.h"
 #include "people/stride.h"
 

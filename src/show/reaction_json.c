@@ -3,7 +3,7 @@
 
 #include "base/vector.h"
 #include "contact/effector.h"
-#include "people/impulse.h"
+#include "people/stride_measures.h"
 #include "people/stride.h"
 
 static void impulse_of(ambulo__json *json, const ambulo_model *model, const double impulse[3]) {

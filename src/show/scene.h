@@ -14,7 +14,7 @@
 
 #include "ambulo/solve.h"
 #include "base/text_buffer.h"
-#include "people/compare_people.h"
+#include "people/compare.h"
 #include "formats/json_text.h"
 
 #define AMBULO__SCENE_SCHEMA "ambulo-scene/1"

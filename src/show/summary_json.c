@@ -13,7 +13,7 @@
 #include "show/economy_json.h"
 #include "show/history_json.h"
 #include "show/reaction_json.h"
-#include "people/strikes.h"
+#include "people/stride.h"
 
 #include <math.h>
 

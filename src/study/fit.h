@@ -28,7 +28,7 @@
 #include "ambulo/tools/report.h"
 #include "ambulo/tools/compare.h"
 #include "base/alloc.h"
-#include "people/compare_people.h"
+#include "people/compare.h"
 #include "formats/yaml_node.h"
 
 enum {

@@ -5,7 +5,7 @@
 #include "formats/paths.h"
 #include "study/case_path.h"
 #include "study/case_record.h"
-#include "people/compare_curve.h"
+#include "people/compare.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "people/compare_score.h"
+#include "people/compare.h"
 
 static const double least_ratio = 0.1;
 

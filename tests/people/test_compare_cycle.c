@@ -1,6 +1,5 @@
 /* Cycles: strikes from summary, forces, option or default; interpolation; sums and components. */
-#include "people/compare_cycle.h"
-#include "ambulo/tools/compare.h"
+#include "people/compare.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"
 

@@ -1,5 +1,5 @@
 /* Column maps: the built-in ones, a file, its faults. */
-#include "people/compare_map.h"
+#include "people/compare.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 

@@ -1,11 +1,72 @@
-/* Values, rates and accelerations of a motion file: what the file has is used, in its units; what
- * it lacks is computed. */
+/* Filters on the rows of a file: their rate, and rows that no filter fits. */
+#include "people/inverse.h"
+#include "people/motion_fit.h"
 #include "support/arm.h"
-#include "ambulo/tools/load.h"
+#include "support/fail_alloc.h"
 #include "support/inverse_table.h"
+#include "support/messages.h"
 #include "support/scratch.h"
 
-enum { ROWS = 11 };
+enum { ROWS = 400 };
+
+static void the_rate_is_that_of_the_rows(void **state) {
+  (void)state;
+  /* 120 rows a second in milliseconds, rounded to whole ones as files are */
+  double time[ROWS], x[ROWS];
+  for (int k = 0; k < ROWS; k++) {
+    time[k] = 1000.0 + (double)(long)(k * 1000.0 / 120.0 + 0.5);
+    x[k] = sin(2.0 * 3.14159265358979 * 6.0 * k / 120.0);
+  }
+  ambulo__filtering f = {.time = time, .rows = ROWS, .time_unit = 1e-3, .cutoff = 6.0, .order = 4};
+  assert_int_equal(ambulo__filter(&f, x, 1, NULL), AMBULO_OK);
+  double most = 0.0;
+  for (int k = 100; k < 300; k++) most = fmax(most, fabs(x[k]));
+  assert_close(most, sqrt(0.5), 2e-3);
+  double rounded[4] = {0.0, 0.108, 0.2, 0.3}, y[4] = {1.0, 1.0, 1.0, 1.0};
+  f = (ambulo__filtering){.time = rounded, .rows = 4, .time_unit = 1.0, .cutoff = 2.0, .order = 4};
+  assert_int_equal(ambulo__filter(&f, y, 1, NULL), AMBULO_OK);
+}
+
+static void refuse(ambulo__filtering *f, const char *message) {
+  double x[3] = {1.0, 2.0, 4.0};
+  f->diagnostics = ambulo_diagnostics_create(NULL);
+  f->option = "--filter";
+  f->file = "m.csv";
+  assert_int_equal(ambulo__filter(f, x, 1, NULL), AMBULO_E_SCHEMA);
+  assert_message(f->diagnostics, 0, message);
+  assert_message(f->diagnostics, 0, "m.csv: error[E_SCHEMA]: --filter ");
+  assert_close(x[2], 4.0, 0.0);
+  ambulo_diagnostics_free(f->diagnostics);
+}
+
+static void what_cannot_be_filtered_is_refused(void **state) {
+  (void)state;
+  double even[3] = {0.0, 0.1, 0.2}, uneven[3] = {0.0, 0.1, 0.3};
+  ambulo__filtering f = {.time = uneven, .rows = 3, .time_unit = 1.0, .cutoff = 1.0, .order = 4};
+  refuse(&f, "with steps of 0.15 s, t = 0.1 s would be 0.15 s");
+  f.time = even;
+  f.cutoff = 5.0;
+  refuse(&f, "is 5 Hz; expected less than half the 10 rows a second");
+  f.rows = 1;
+  refuse(&f, "needs rows of several times");
+  f.rows = 3;
+  f.cutoff = 1.0;
+  double x[3] = {1.0, 2.0, 4.0};
+  fail_alloc memory = fail_alloc_at(0);
+  ambulo_allocator hook = fail_alloc_hook(&memory);
+  assert_int_equal(ambulo__filter(&f, x, 1, &hook), AMBULO_E_MEMORY);
+}
+
+static int test_filtering_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_rate_is_that_of_the_rows),
+                                     cmocka_unit_test(what_cannot_be_filtered_is_refused)};
+  return cmocka_run_group_tests_name("inverse/filtering", tests, NULL, NULL);
+}
+
+/* Values, rates and accelerations of a motion file: what the file has is used, in its units; what
+ * it lacks is computed. */
+
+enum { TEST_INVERSE_MOTION_ROWS = 11 };
 
 /* quintic and quadratic in time: splines of degree 5 reproduce them and their rates */
 static void at(double t, double q[2], double qd[2], double qdd[2]) {
@@ -30,7 +91,7 @@ static const char *write_motion(void **state, const dress *d) {
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   fprintf(file, "%s\n", d->header);
-  for (int k = 0; k < ROWS; k++) {
+  for (int k = 0; k < TEST_INVERSE_MOTION_ROWS; k++) {
     double t = 0.1 * k, q[2], qd[2], qdd[2];
     at(t, q, qd, qdd);
     fprintf(file, "%.17g", d->time * t);
@@ -51,8 +112,8 @@ static void check(const ambulo_model *model, const ambulo__motion *m, double rat
   static const char *const names[] = {"shoulder", "elbow"};
   ambulo_mechanics *mechanics = NULL;
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(m->rows, ROWS);
-  for (int k = 0; k < ROWS; k++) {
+  assert_int_equal(m->rows, TEST_INVERSE_MOTION_ROWS);
+  for (int k = 0; k < TEST_INVERSE_MOTION_ROWS; k++) {
     double q[2], qd[2], qdd[2], tau[2];
     char column[32];
     at(0.1 * k, q, qd, qdd);
@@ -124,14 +185,14 @@ static void slopes_of_rates(void **state) {
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   fprintf(file, "time,shoulder,elbow,qd.shoulder,qd.elbow\n");
-  for (int k = 0; k < ROWS; k++) {
+  for (int k = 0; k < TEST_INVERSE_MOTION_ROWS; k++) {
     double t = 0.1 * k, q[2], qd[2], qdd[2];
     at(t, q, qd, qdd);
     fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g\n", t, q[0], q[1], qd[0], qd[1] + 0.05 * t);
   }
   fclose(file);
   ambulo__motion *m = inverse_of(model, path, NULL, NULL, AMBULO_OK);
-  for (int k = 0; k < ROWS; k++) {
+  for (int k = 0; k < TEST_INVERSE_MOTION_ROWS; k++) {
     assert_close(table_cell(m, k, "qdd.shoulder"), -0.3 * k, 1e-8);
     assert_close(table_cell(m, k, "qdd.elbow"), 1.45, 1e-8);
   }
@@ -282,7 +343,7 @@ static void missing_columns(void **state) {
 
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
-int main(void) {
+static int test_inverse_motion_tests(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(what_the_file_has_is_used),
                                      SCRATCH_TEST(slopes_of_rates),
                                      SCRATCH_TEST(accelerations_alone),
@@ -293,4 +354,8 @@ int main(void) {
                                      SCRATCH_TEST(columns_that_contradict),
                                      SCRATCH_TEST(missing_columns)};
   return cmocka_run_group_tests_name("inverse/inverse_motion", tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_filtering_tests() + test_inverse_motion_tests();
 }

@@ -1,8 +1,56 @@
-/* What hardly can be meant is doubted, with the option that mends it; what can be is not. */
+/* Doubts are warnings; the strict make them errors. */
+#include "people/inverse.h"
 #include "support/arm.h"
 #include "ambulo/tools/load.h"
 #include "support/inverse_table.h"
+#include "support/messages.h"
+#include "support/motion_text.h"
 #include "support/scratch.h"
+
+static void strictness_decides(void **state) {
+  (void)state;
+  for (int strict = 0; strict < 2; strict++) {
+    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), strict, 0, 0};
+    assert_int_equal(ambulo__doubts_status(&doubts), AMBULO_OK);
+    ambulo__doubt(&doubts, "m.csv", "--angles degrees", "the knee is at %g rad", 65.0);
+    assert_int_equal(doubts.count, 1);
+    assert_int_equal(ambulo__doubts_status(&doubts), strict ? AMBULO_E_SCHEMA : AMBULO_OK);
+    assert_int_equal(ambulo_diagnostics_error_count(doubts.diagnostics), strict);
+    assert_message(doubts.diagnostics, 0,
+                   strict ? "m.csv: error[E_SCHEMA]: the knee is at 65 rad"
+                          : "m.csv: warning: the knee is at 65 rad");
+    assert_message(doubts.diagnostics, 0, "hint: --angles degrees");
+    ambulo_diagnostics_free(doubts.diagnostics);
+  }
+}
+
+static void headers_that_count_wrongly(void **state) {
+  (void)state;
+  static const char *const texts[] = {"t\nnColumns=3\nendheader\ntime\tq\n0\t1\n",
+                                      "t\nnColumns=2\nendheader\ntime\tq\n0\t1\n",
+                                      "t\nendheader\ntime\tq\n0\t1\n"};
+  for (int i = 0; i < 3; i++) {
+    ambulo__motion *motion = NULL;
+    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0, 0};
+    assert_int_equal(motion_read_text(texts[i], strlen(texts[i]), "m.sto", AMBULO__MOTION_STO, NULL,
+                                      NULL, &motion),
+                     AMBULO_OK);
+    ambulo__doubt_header(&doubts, "m.sto", motion);
+    assert_int_equal(doubts.count, i == 0);
+    if (i == 0)
+      assert_message(doubts.diagnostics, 0, "m.sto: warning: 2 columns; the header says 3");
+    ambulo_diagnostics_free(doubts.diagnostics);
+    ambulo__motion_free(motion);
+  }
+}
+
+static int test_doubt_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(strictness_decides),
+                                     cmocka_unit_test(headers_that_count_wrongly)};
+  return cmocka_run_group_tests_name("inverse/doubt", tests, NULL, NULL);
+}
+
+/* What hardly can be meant is doubted, with the option that mends it; what can be is not. */
 
 static const double pi = 3.14159265358979323846;
 
@@ -284,7 +332,7 @@ static void places_and_residuals_are_doubted(void **state) {
 
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
-int main(void) {
+static int test_plausibility_tests(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(units_are_doubted),
                                      SCRATCH_TEST(lengths_at_rest_are_doubted),
                                      SCRATCH_TEST(speeds_are_doubted),
@@ -294,4 +342,8 @@ int main(void) {
                                      SCRATCH_TEST(another_body_is_doubted),
                                      SCRATCH_TEST(places_and_residuals_are_doubted)};
   return cmocka_run_group_tests_name("inverse/plausibility", tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_doubt_tests() + test_plausibility_tests();
 }

@@ -1,6 +1,6 @@
 /* "work" and "center_of_mass" of summary.json. */
 #include "show/economy_json.h"
-#include "people/economy.h"
+#include "people/stride_measures.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"
 #include "support/wellformed.h"
@@ -44,7 +44,7 @@ static void expect_of(const char *json, const char *name, const ambulo__economy 
   assert_close(number(at, "\"negative\": "), e->negative[i], 1e-9 * e->positive_sum);
 }
 
-/* as people/economy.h has it by itself; nothing is left allocated */
+/* as people/stride_measures.h has it by itself; nothing is left allocated */
 static void the_numbers_are_the_economys(void **state) {
   (void)state;
   fail_alloc memory = fail_alloc_at(-1);

@@ -4,7 +4,7 @@
 #include "ambulo/tools/compare.h"
 #include "ambulo/tools/load.h"
 #include "show/gait_svg.h"
-#include "people/strikes.h"
+#include "people/stride.h"
 #include "support/fail_alloc.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"

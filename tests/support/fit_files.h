@@ -6,7 +6,7 @@
 #ifndef AMBULO_TESTS_FIT_FILES_H
 #define AMBULO_TESTS_FIT_FILES_H
 
-#include "people/compare_curve.h"
+#include "people/compare.h"
 #include "ambulo/problem.h"
 #include "study/fit.h"
 #include "support/messages.h"

@@ -3,7 +3,7 @@
 #include "ambulo/tools/tools.h"
 #include "mechanics/pose.h"
 #include "problem/nlp.h"
-#include "people/approach.h"
+#include "people/stride_measures.h"
 #include "people/stride.h"
 #include "support/shared_data.h"
 #include "support/test.h"

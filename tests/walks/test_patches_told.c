@@ -1,7 +1,7 @@
 /* Patches in whole problems: what strides, tables, and the look between the nodes say of them. */
 #include "formats/motion_csv.h"
 #include "solver/dense.h"
-#include "people/impulse.h"
+#include "people/stride_measures.h"
 #include "people/stride.h"
 #include "support/patched_problem.h"
 

@@ -3,7 +3,7 @@
 #include "contact/effector.h"
 #include "contact/stance.h"
 #include "mechanics/pose.h"
-#include "people/impulse.h"
+#include "people/stride_measures.h"
 #include "support/shared_fixture.h"
 
 enum { MOST_ERRORS = 32 };

@@ -2,7 +2,7 @@
  *
  * Beside people: curves of models/norms, which are of a comfortable speed, and figures that are
  * published of others (docs/validation.md has the sources and what is not met). */
-#include "people/economy.h"
+#include "people/stride_measures.h"
 #include "support/scratch.h"
 #include "support/test.h"
 

@@ -3,6 +3,7 @@
 #include "ambulo/tools/load.h"
 #include "formats/motion_csv.h"
 #include "people/stride.h"
+#include "people/waving_stride.h"
 #include "support/test.h"
 
 typedef struct fixture {
@@ -156,9 +157,140 @@ static void the_table_has_their_columns(void **state) {
   fixture_close(&f);
 }
 
-int main(void) {
+static int test_stride_feet_tests(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(feet_change_sides), cmocka_unit_test(forces_and_peaks),
       cmocka_unit_test(places_rise_with_the_ends), cmocka_unit_test(the_table_has_their_columns)};
   return cmocka_run_group_tests_name("stride/stride_feet", tests, NULL, NULL);
+}
+
+/* Devices over a stride: the mirrored step, and work that a spring gives back. */
+
+static const char *const worn =
+    "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: -60, "
+    "side: above, mirror: true}, {name: twist, kind: spring, coordinate: lumbar_rotation, "
+    "stiffness: 30, rest: 0}, {name: band, kind: spring, between: [{link: foot_r, position: [0.04, "
+    "0, 0]}, {link: foot_l, position: [0.04, 0, 0]}], stiffness: 120, rest: 0.2}]";
+
+/* the state of the spring at each sample: what it holds is what went in */
+static void test_a_mirrored_stride(void **state) {
+  (void)state;
+  waving_stride waving;
+  open_waving_stride(&waving, worn, 2001);
+  const ambulo_problem *p = waving.problem;
+  const ambulo__stride s = waving.stride;
+  int d = s.coordinates, n = s.devices;
+  int ankle[2] = {ambulo_model_find_coordinate(p->model, "ankle_angle_r"),
+                  ambulo_model_find_coordinate(p->model, "ankle_angle_l")};
+  int twist = ambulo_model_find_coordinate(p->model, "lumbar_rotation");
+  assert_int_equal(n, 4);
+  for (int k = 0; k < s.samples; k += 7) {
+    for (int side = 0; side < 2; side++) {
+      double q = s.q[k * d + ankle[side]];
+      int v = side ? 3 : 0;
+      assert_close(s.along[k * n + v], q, 1e-12);
+      assert_close(s.effort[k * n + v], -150 * (q + acos(-1) / 3), 1e-10);
+      assert_close(s.power[k * n + v], s.effort[k * n + v] * s.qd[k * d + ankle[side]], 1e-10);
+    }
+    assert_close(s.along[k * n + 1], s.q[k * d + twist], 1e-12);
+    assert_close(s.effort[k * n + 1], -30 * s.q[k * d + twist], 1e-12);
+    assert_close(s.effort[k * n + 2], 120 * (s.along[k * n + 2] - 0.2), 1e-10);
+  }
+  for (int v = 0; v < n; v++) {
+    double stiffness[] = {150, 30, 120, 150}, rest[] = {-acos(-1) / 3, 0, 0.2, -acos(-1) / 3};
+    ambulo__device_work work = ambulo__stride_device_work(&s, v);
+    double first = s.along[v] - rest[v], last = s.along[(s.samples - 1) * n + v] - rest[v];
+    double peak = 0, stored = 0.5 * stiffness[v] * (last * last - first * first);
+    for (int k = 0; k < s.samples; k++) peak = fmax(peak, fabs(s.effort[k * n + v]));
+    assert_close(fabs(work.peak), peak, 0);
+    assert_true(work.positive > 0 && work.negative < 0);
+    /* the motion is no gait: from one step to the next its state jumps */
+    double middle = s.along[1000 * n + v] - rest[v], after = s.along[1001 * n + v] - rest[v];
+    double jump = 0.5 * stiffness[v] * (after * after - middle * middle);
+    assert_close((work.positive + work.negative + stored - jump) / work.positive, 0, 0.02);
+  }
+  close_waving_stride(&waving);
+}
+
+static void test_no_devices_no_arrays(void **state) {
+  (void)state;
+  waving_stride still;
+  open_waving_stride(&still, NULL, 0);
+  assert_int_equal(still.stride.devices, 0);
+  assert_null(still.stride.effort);
+  close_waving_stride(&still);
+}
+
+static int test_stride_devices_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_mirrored_stride),
+                                     cmocka_unit_test(test_no_devices_no_arrays)};
+  return cmocka_run_group_tests_name("stride/stride_devices", tests, NULL, NULL);
+}
+
+/* What hands hold over a stride: the mirrored step, peaks, work. */
+
+static const char *const box =
+    "load={name: box, hands: [hip_r, hip_l], mass: 10, inertia: 0.3, center: [0.1, 0, -0.1], "
+    "force: [30, 0, 5]}";
+
+static const double *force_of(const ambulo__stride *s, int k, int hand) {
+  return s->hold_force + 6 * k + 3 * hand;
+}
+
+/* at a phase of the second step hands have what the others had at that of the first */
+static void test_stride_holds_test_a_mirrored_stride(void **state) {
+  (void)state;
+  waving_stride waving;
+  double work[2], sum = 0, most = 0, least = 0;
+  open_waving_stride(&waving, box, 401);
+  const ambulo__stride s = waving.stride;
+  assert_int_equal(s.holds, 1);
+  for (int k = 0; k <= 200; k++) {
+    /* axes of the model: forward, up, to the right */
+    const double mirror[3] = {1, 1, -1};
+    int other = k + 200;
+    if (k == 0) continue; /* of the two states at the middle the first one is shown */
+    for (int hand = 0; hand < 2; hand++)
+      for (int i = 0; i < 3; i++) {
+        assert_close(force_of(&s, other, hand)[i], mirror[i] * force_of(&s, k, 1 - hand)[i], 1e-9);
+        assert_close(s.hold_moment[6 * other + 3 * hand + i],
+                     -mirror[i] * s.hold_moment[6 * k + 3 * (1 - hand) + i], 1e-9);
+        least = fmax(least, fabs(s.hold_moment[6 * k + i]));
+      }
+    assert_close(s.hold_power[other], s.hold_power[k], 1e-9);
+  }
+  assert_true(least > 0.1);
+  ambulo__hand_peak peak = ambulo__stride_hand_peak(&s, 0, 1);
+  for (int k = 0; k < s.samples; k++) {
+    const double *f = force_of(&s, k, 1);
+    double force = sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    double half = k == 0 || k == 400 ? 0.5 : 1;
+    most = fmax(most, force);
+    sum += half * s.duration / 400 * s.hold_power[k];
+    if (force == peak.force) assert_close(peak.force_time, s.times[k], 0);
+  }
+  assert_close(peak.force, most, 0);
+  assert_true(peak.moment > 0 && peak.moment <= 2 * least);
+  ambulo__stride_hold_work(&s, 0, work);
+  assert_true(work[0] > 0 && work[1] < 0);
+  assert_close(work[0] + work[1], sum, 1e-9);
+  close_waving_stride(&waving);
+}
+
+static void test_nothing_held(void **state) {
+  (void)state;
+  waving_stride still;
+  open_waving_stride(&still, NULL, 0);
+  assert_true(still.stride.holds == 0 && !still.stride.hold_force && !still.stride.hold_power);
+  close_waving_stride(&still);
+}
+
+static int test_stride_holds_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_stride_holds_test_a_mirrored_stride),
+                                     cmocka_unit_test(test_nothing_held)};
+  return cmocka_run_group_tests_name("stride/stride_holds", tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_stride_feet_tests() + test_stride_devices_tests() + test_stride_holds_tests();
 }

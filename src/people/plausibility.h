@@ -1,6 +1,6 @@
-/* people/doubt.h - what is only doubted: a warning, or an error for who asked for strictness. */
-#ifndef AMBULO_PEOPLE_DOUBT_H
-#define AMBULO_PEOPLE_DOUBT_H
+/* people/plausibility.h - doubts: warnings, or errors under --strict. */
+#ifndef AMBULO_PEOPLE_PLAUSIBILITY_H
+#define AMBULO_PEOPLE_PLAUSIBILITY_H
 
 #include "base/diagnostics.h"
 #include "formats/motion_file.h"
