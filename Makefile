@@ -188,10 +188,10 @@ $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
 	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
 
-# the page of `ambulo report`, as an array of bytes (src/show/viewer.h); the zero behind it ends a text
+# the page of `ambulo report`, as an array of bytes (src/show/page.h); the zero behind it ends a text
 $(OUT)/obj/viewer.c: src/show/viewer.html Makefile
 	@mkdir -p $(@D)
-	$(call quiet,GEN $@){ echo '#include "show/viewer.h"'; echo 'const unsigned char ambulo__viewer[] = {'; \
+	$(call quiet,GEN $@){ echo '#include "show/page.h"'; echo 'const unsigned char ambulo__viewer[] = {'; \
 	  od -An -v -t u1 $< | sed 's/[0-9][0-9]*/&,/g'; echo '0};'; \
 	  echo 'const size_t ambulo__viewer_size = sizeof ambulo__viewer - 1;'; } > $@
 $(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags

@@ -5,7 +5,7 @@
 
 #include "show/case_table.h"
 #include "show/motion_pack.h"
-#include "show/packed_text.h"
+#include "show/page.h"
 
 static int is_of_family(const ambulo__case_data *a, const ambulo__case_data *b) {
   return a->samples == b->samples &&

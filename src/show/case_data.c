@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/numtext.h"
-#include "show/script_text.h"
+#include "show/page.h"
 
 /* paths in summary.json; what stands below them is kept too */
 enum { DEPTH = 3 };
@@ -89,11 +89,11 @@ static float *more(parting *p, size_t count) {
 }
 
 /* 1 if the list is one of as many whole numbers as there are samples, which then are taken: the
- * first one, the step to the next, and from then on how steps change (show/scene_series.h) */
+ * first one, the step to the next, and from then on how steps change (show/scene.h) */
 static int take_series(parting *p, const ambulo__yaml_node *list, quantity kind) {
   ambulo__case_data *d = p->data;
   if (kind == KINDS || d->samples == 0 || ambulo__yaml_items(list) != d->samples) return 0;
-  static const long long most = 1LL << 43; /* more than show/scene_series.c writes */
+  static const long long most = 1LL << 43; /* more than show/scene.c writes */
   float *to = more(p, (size_t)d->samples);
   long long value = 0, slope = 0, number;
   for (int k = 0; k < d->samples && to; k++) {

@@ -1,16 +1,16 @@
 /* show/gait_people.c - see gait_people.h. */
 #include "show/gait_people.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "ambulo/tools/report.h"
 #include "ambulo/tools/compare.h"
+#include "ambulo/tools/report.h"
 #include "base/vector.h"
 #include "contact/flight.h"
 #include "model/neutral_pose.h"
 #include "people/stride.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static const double level = 0.01; /* rad: ground that rises by less */
 static const double degrees = 57.295779513082321;

@@ -14,9 +14,11 @@
 #ifndef AMBULO_SHOW_GAIT_PEOPLE_H
 #define AMBULO_SHOW_GAIT_PEOPLE_H
 
+#include "base/text_buffer.h"
+#include "model/model.h"
 #include "people/compare.h"
-#include "show/skeleton.h"
 #include "people/stride.h"
+#include "show/skeleton.h"
 
 typedef struct ambulo__gait_people {
   ambulo_allocator allocator;

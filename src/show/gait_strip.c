@@ -14,11 +14,9 @@
 
 #include "base/vector.h"
 #include "contact/contact_frame.h"
-#include "show/gait_ground.h"
-#include "show/gait_held.h"
+#include "show/gait_surroundings.h"
 #include "show/gait_svg.h"
 #include "show/skeleton.h"
-#include "show/gait_worn.h"
 #include "show/svg.h"
 
 enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, FEWEST_SCENES = 7, EXTENT_SAMPLES = 61 };

@@ -7,9 +7,9 @@
 
 #include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
+#include "people/stride.h"
 #include "show/gait_people.h"
 #include "show/skeleton.h"
-#include "people/stride.h"
 
 /* Appends the whole picture; `people` (NULL: none) are drawn behind the curves of a walk
  * (show/gait_people.h). Errors: E_MEMORY. */

@@ -1,11 +1,4 @@
-/* show/page.h - the data of a page: what its program is given to show.
- *
- *     {"results": [{"name", "packed"}, ...]}            of result folders
- *     {"study": {"name", "motions": [...], "table"}}    of a batch folder (study_motions.h)
- *
- * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
- * the files of the folder (docs/results.md), `strip` its gait.svg as a text. "table" is packed too.
- * All of it is JSON for a <script> element (script_text.h). */
+/* show/page.h - the page of `ambulo report`: its program, its data, and texts that stand in it. */
 #ifndef AMBULO_SHOW_PAGE_H
 #define AMBULO_SHOW_PAGE_H
 
@@ -13,6 +6,40 @@
 #include "base/diagnostics.h"
 #include "base/text_buffer.h"
 #include "formats/yaml_node.h"
+
+#include <stddef.h>
+
+extern const unsigned char ambulo__viewer[];
+extern const size_t ambulo__viewer_size;
+
+/* JSON that stands inside of a page's <script> element.
+ *
+ * JSON has '<' and the line ends of JavaScript, U+2028 and U+2029, only inside of texts, where they
+ * may as well be written \u003c, \u2028 and \u2029: then no text, whatever it says, can end the
+ * element or open a comment in it. Blanks outside of texts are left out. */
+
+/* Appends JSON so. */
+void ambulo__script_json(ambulo__text_buffer *out, const char *json, size_t length);
+/* Appends a text of any bytes as a JSON text; what is not UTF-8 becomes U+FFFD. */
+void ambulo__script_text(ambulo__text_buffer *out, const char *text);
+/* Appends a number to six digits, a whole one to all of its digits, where the text reads as one;
+ * null for "null" and for nothing; else the text. */
+void ambulo__script_value(ambulo__text_buffer *out, const char *text);
+
+/* long texts inside of a page. */
+
+/* Appends a JSON string: text [length] compressed (formats/deflate.h), in base64 (RFC 4648).
+ * viewer/inflated.js reads it. */
+void ambulo__packed_text(ambulo__text_buffer *out, const char *text, size_t length);
+
+/* the data of a page: what its program is given to show.
+ *
+ *     {"results": [{"name", "packed"}, ...]}            of result folders
+ *     {"study": {"name", "motions": [...], "table"}}    of a batch folder (study_motions.h)
+ *
+ * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
+ * the files of the folder (docs/results.md), `strip` its gait.svg as a text. "table" is packed too.
+ * All of it is JSON for a <script> element (script_text.h). */
 
 /* One file of a folder, read and found to be JSON of that schema: the value of its key `schema`
  * begins with `schema`. */

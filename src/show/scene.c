@@ -1,14 +1,235 @@
-/* show/scene.c - see scene.h.
+/* show/scene.c - scene.json: series of whole numbers, curves over time, and the file (scene.h).
  *
- * Reading order: scene.h, series.h, scene.c, body.c, surroundings.c, curves.c.
+ * The numbers are rounded first and differences taken of what was rounded: adding up gives the
+ * rounded ones back, however long the series is.
  */
 #include "show/scene.h"
 
+#include "base/vector.h"
+#include "contact/effector.h"
+#include "show/gait_svg.h"
+
 #include <math.h>
 
-#include "show/scene_curves.h"
-#include "show/scene_series.h"
-#include "show/scene_surroundings.h"
+static const double largest = 1099511627776.0; /* 2^40: differences of differences fit */
+
+void ambulo__series(ambulo__json *json, const char *key, const double *values, int step, int count,
+                    double unit) {
+  ambulo__text_buffer line;
+  ambulo__text_init_part(&line, json->text);
+  long long last = 0, slope = 0;
+  ambulo__text_append_char(&line, '[');
+  for (int k = 0; k < count; k++) {
+    double scaled = round(values[(size_t)k * (size_t)step] / unit);
+    long long now = fabs(scaled) <= largest ? (long long)scaled : last;
+    long long change = now - last;
+    if (k > 0) ambulo__text_append_char(&line, ',');
+    ambulo__text_append_number(&line, (double)(k < 2 ? change : change - slope));
+    slope = change;
+    last = now;
+  }
+  ambulo__text_append_char(&line, ']');
+  ambulo__json_raw(json, key, ambulo__text_data(&line));
+  ambulo__text_free(&line);
+}
+
+/*
+ * power_i = tau_i qd_i, W. People's curves are in SI units and radians here, their bands two
+ * standard deviations to either side.
+ */
+
+static const double degree = 0.017453292519943295; /* rad */
+
+/* ---------------------------------------------------------------- one curve */
+
+/* mean and band under `key`; nothing where some time of the motion has no people */
+static ambulo_status beside(ambulo__json *json, const char *key, const ambulo__people_curve *curve,
+                            double factor, double unit) {
+  int samples = curve->of->stride->samples, there = curve->curve != NULL;
+  const ambulo_allocator *a = &json->text->allocator;
+  if (!there) return AMBULO_OK;
+  double *mean = ambulo__alloc(a, 2 * (size_t)samples, sizeof *mean);
+  if (!mean) return AMBULO_E_MEMORY;
+  double *band = mean + samples;
+  for (int k = 0; k < samples && there; k++) {
+    there = ambulo__people_at(curve, k, &mean[k], &band[k]);
+    mean[k] *= factor;
+    band[k] *= factor;
+  }
+  if (there) {
+    ambulo__json_open(json, key, '{');
+    ambulo__json_integer(json, "source", curve->file);
+    ambulo__series(json, "mean", mean, 1, samples, unit);
+    if (curve->curve->sd) ambulo__series(json, "band", band, 1, samples, unit);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__free(a, mean);
+  return AMBULO_OK;
+}
+
+static void limits(ambulo__json *json, const char *key, const double limit[2]) {
+  ambulo__json_open(json, key, '[');
+  ambulo__json_number(json, NULL, limit[0]);
+  ambulo__json_number(json, NULL, limit[1]);
+  ambulo__json_close(json, ']');
+}
+
+static double unit_of(const ambulo_coordinate *c) {
+  return c->type == AMBULO_REVOLUTE ? AMBULO__SCENE_ANGLE : AMBULO__SCENE_LENGTH;
+}
+
+static void about(ambulo__json *json, const ambulo_model *model, int i) {
+  const ambulo_coordinate *c = &model->coordinates[i];
+  ambulo__json_text(json, "name", c->name);
+  ambulo__json_text(json, "unit", c->type == AMBULO_REVOLUTE ? "rad" : "m");
+  ambulo__json_text(json, "side", ambulo__scene_side(ambulo__coordinate_side(model, i)));
+  ambulo__json_integer(json, "mirror", c->mirror);
+  ambulo__json_integer(json, "actuated", c->actuated);
+  limits(json, "range", c->range);
+  limits(json, "torque", c->torque);
+}
+
+void ambulo__scene_coordinates(ambulo__json *json, const ambulo_model *model, const double *q,
+                               int samples) {
+  int count = model->coordinate_count;
+  ambulo__json_open(json, "coordinates", '[');
+  for (int i = 0; i < count; i++) {
+    ambulo__json_open(json, NULL, '{');
+    about(json, model, i);
+    ambulo__series(json, "q", q + i, count, samples, unit_of(&model->coordinates[i]));
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+}
+
+/* --------------------------------------------------------------- coordinates */
+
+static ambulo_status coordinate(ambulo__json *json, const ambulo__stride *s,
+                                const ambulo__gait_people *people, int i, double *power) {
+  int count = s->coordinates;
+  int revolute = s->model->coordinates[i].type == AMBULO_REVOLUTE;
+  double unit = unit_of(&s->model->coordinates[i]);
+  for (int k = 0; k < s->samples; k++) power[k] = s->tau[k * count + i] * s->qd[k * count + i];
+  ambulo__json_open(json, NULL, '{');
+  about(json, s->model, i);
+  ambulo__series(json, "q", s->q + i, count, s->samples, unit);
+  ambulo__series(json, "tau", s->tau + i, count, s->samples, AMBULO__SCENE_TORQUE);
+  ambulo__series(json, "power", power, 1, s->samples, AMBULO__SCENE_POWER);
+  ambulo__people_curve angle = ambulo__people_coordinate(people, "q", i);
+  ambulo__people_curve torque = ambulo__people_coordinate(people, "tau", i);
+  ambulo_status status = beside(json, "people_q", &angle, revolute ? degree : 1.0, unit);
+  if (!status) status = beside(json, "people_tau", &torque, 1.0, AMBULO__SCENE_TORQUE);
+  ambulo__json_close(json, '}');
+  return status;
+}
+
+static ambulo_status coordinates(ambulo__json *json, const ambulo__stride *s,
+                                 const ambulo__gait_people *people) {
+  const ambulo_allocator *a = &json->text->allocator;
+  double *power = ambulo__alloc(a, (size_t)s->samples, sizeof *power);
+  ambulo_status status = power ? AMBULO_OK : AMBULO_E_MEMORY;
+  ambulo__json_open(json, "coordinates", '[');
+  for (int i = 0; i < s->coordinates && !status; i++)
+    status = coordinate(json, s, people, i, power);
+  ambulo__json_close(json, ']');
+  ambulo__free(a, power);
+  return status;
+}
+
+/* -------------------------------------------------------------------- forces */
+
+static ambulo__side side_of(const ambulo__stride *s, int effector) {
+  int patch = ambulo__effector_patch(s->model, effector);
+  if (patch >= 0) return ambulo__gait_patch_side(s->model, patch);
+  const ambulo_foot *foot = &s->model->feet[effector];
+  for (int i = 0; i < s->coordinates; i++) {
+    const ambulo_link *link = &s->model->links[s->model->points[foot->heel_center].link];
+    for (; link->coordinate < 0 && link->parent >= 0;) link = &s->model->links[link->parent];
+    if (link->coordinate >= 0) return ambulo__coordinate_side(s->model, link->coordinate);
+  }
+  return AMBULO__MIDDLE;
+}
+
+/* along forward, left and up: of a force, N; of its centre of pressure, m, with the ground's height
+ * taken off */
+static void turn(const ambulo__stride *s, const double *force, const double *pressure, int step,
+                 double *out) {
+  for (int k = 0; k < s->samples; k++, out += 6) {
+    ambulo__scene_place(s->model, 0.0, force + (size_t)k * (size_t)step, out);
+    ambulo__scene_place(s->model, s->problem->definition.ground_height,
+                        pressure + (size_t)k * (size_t)step, out + 3);
+  }
+}
+
+static void six_series(ambulo__json *json, const ambulo__stride *s, const double *turned) {
+  ambulo__json_open(json, "force", '[');
+  for (int i = 0; i < 3; i++)
+    ambulo__series(json, NULL, turned + i, 6, s->samples, AMBULO__SCENE_FORCE);
+  ambulo__json_close(json, ']');
+  ambulo__json_open(json, "pressure", '[');
+  for (int i = 3; i < 6; i++)
+    ambulo__series(json, NULL, turned + i, 6, s->samples, AMBULO__SCENE_LENGTH);
+  ambulo__json_close(json, ']');
+}
+
+static ambulo_status force(ambulo__json *json, const ambulo__stride *s, int effector,
+                           const ambulo__gait_people *people, double *turned) {
+  int patch = ambulo__effector_patch(s->model, effector);
+  ambulo__side side = side_of(s, effector);
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_text(json, "name", ambulo__effector_name(s->model, effector));
+  ambulo__json_text(json, "kind", ambulo__effector_kind(s->model, effector));
+  ambulo__json_text(json, "side", ambulo__scene_side(side));
+  if (patch < 0) {
+    turn(s, s->grf + 3 * effector, s->cop + 3 * effector, 3 * s->feet, turned);
+  } else {
+    turn(s, s->patch_force + 3 * patch, s->patch_cop + 3 * patch, 3 * s->patches, turned);
+  }
+  six_series(json, s, turned);
+  ambulo_status status = AMBULO_OK;
+  if (patch < 0 && side != AMBULO__MIDDLE) {
+    double weight = ambulo__model_weight(s->model);
+    ambulo__people_curve up = ambulo__people_force(people, "up", side);
+    ambulo__people_curve ahead = ambulo__people_force(people, "forward", side);
+    status = beside(json, "people_up", &up, weight, AMBULO__SCENE_FORCE);
+    if (!status) status = beside(json, "people_forward", &ahead, weight, AMBULO__SCENE_FORCE);
+  }
+  ambulo__json_close(json, '}');
+  return status;
+}
+
+static ambulo_status forces(ambulo__json *json, const ambulo__stride *s,
+                            const ambulo__gait_people *people) {
+  const ambulo_allocator *a = &json->text->allocator;
+  double *turned = ambulo__alloc(a, 6 * (size_t)s->samples, sizeof *turned);
+  ambulo_status status = turned ? AMBULO_OK : AMBULO_E_MEMORY;
+  ambulo__json_open(json, "forces", '[');
+  for (int e = 0; e < ambulo__effector_count(s->model) && !status; e++) {
+    int patch = ambulo__effector_patch(s->model, e);
+    int known = patch < 0 ? e < s->feet : patch < s->patches;
+    if (known && ambulo__gait_shows(s, e)) status = force(json, s, e, people, turned);
+  }
+  ambulo__json_close(json, ']');
+  ambulo__free(a, turned);
+  return status;
+}
+
+ambulo_status ambulo__scene_curves(ambulo__json *json, const ambulo__stride *s,
+                                   const ambulo__gait_people *people) {
+  ambulo_status status = coordinates(json, s, people);
+  if (!status) status = forces(json, s, people);
+  ambulo__json_open(json, "people", '[');
+  for (int f = 0; people->people && f < people->people->count; f++) {
+    const ambulo__people_file *file = &people->people->files[f];
+    ambulo__json_text(json, NULL, file->source ? file->source : file->path);
+  }
+  ambulo__json_close(json, ']');
+  return status;
+}
+
+/*
+ * Reading order: scene.h, series.h, scene.c, body.c, surroundings.c, curves.c.
+ */
 
 static void units(ambulo__json *json) {
   ambulo__json_open(json, "units", '{');

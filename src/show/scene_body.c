@@ -1,11 +1,10 @@
-/* show/scene_body.c - see body.h. */
-#include "show/scene_body.h"
+/* show/scene_body.c - the ends of bones over time (scene.h). */
+#include "show/scene.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/vector.h"
-#include "show/scene_series.h"
 
 const char *ambulo__scene_side(ambulo__side side) {
   static const char *const words[] = {"middle", "left", "right"};

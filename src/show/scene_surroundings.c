@@ -1,5 +1,6 @@
-/* show/scene_surroundings.c - see surroundings.h. */
-#include "show/scene_surroundings.h"
+/* show/scene_surroundings.c - what a body stands on, avoids, reaches for, wears and carries
+ * (scene.h). */
+#include "show/scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,10 +9,8 @@
 #include "contact/collision.h"
 #include "contact/contact_frame.h"
 #include "contact/effector.h"
-#include "show/gait_ground.h"
+#include "show/gait_surroundings.h"
 #include "show/gait_svg.h"
-#include "show/gait_worn.h"
-#include "show/scene_series.h"
 
 enum { CONTACT_SAMPLES = 2400 }; /* of a stride of 1.2 s: .5 ms */
 

@@ -9,9 +9,7 @@
 #include "formats/paths.h"
 #include "study/case_path.h"
 #include "study/gather.h"
-#include "show/packed_text.h"
 #include "show/page.h"
-#include "show/script_text.h"
 #include "show/study_motions.h"
 
 typedef struct study {

@@ -7,12 +7,6 @@
 #include "ambulo/parameters.h"
 #include "formats/json_text.h"
 #include "contact/gait.h"
-#include "show/approach_json.h"
-#include "show/devices_json.h"
-#include "show/holds_json.h"
-#include "show/economy_json.h"
-#include "show/history_json.h"
-#include "show/reaction_json.h"
 #include "people/stride.h"
 
 #include <math.h>

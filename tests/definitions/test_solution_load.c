@@ -1,5 +1,5 @@
 /* solution.yaml: the same bits on the same grid, the same motion on another, and refusals. */
-#include "show/solution_yaml.h"
+#include "show/report.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"

@@ -1,15 +1,131 @@
-/* The page: whole or not at all, safe with any name, from folders that hold what they should. */
+/* JSON inside of a page: whatever a text says, it stays a text. */
 #include "ambulo/tools/tools.h"
-#include "show/viewer.h"
+#include "show/page.h"
 #include "support/fail_alloc.h"
 #include "support/inflate.h"
 #include "support/messages.h"
 #include "support/scene_reading.h"
 #include "support/scratch.h"
+#include "support/test.h"
 #include "support/walker_result.h"
 
 #include <signal.h>
 #include <sys/resource.h>
+
+static void assert_text(const char *given, const char *want) {
+  ambulo__text_buffer out;
+  ambulo__text_init(&out, NULL);
+  ambulo__script_text(&out, given);
+  assert_string_equal(ambulo__text_data(&out), want);
+  ambulo__text_free(&out);
+}
+
+static void texts(void **state) {
+  (void)state;
+  assert_text("walk", "\"walk\"");
+  assert_text("</script><!--", "\"\\u003c/script>\\u003c!--\"");
+  assert_text("a \"b\" \\ & '", "\"a \\\"b\\\" \\\\ & '\"");
+  assert_text("a\nb\x01\x7f", "\"a\\u000ab\\u0001\\u007f\"");
+  assert_text("Gang \xc3\xbc \xe6\xad\xa9 \xf0\x9f\x9a\xb6",
+              "\"Gang \xc3\xbc \xe6\xad\xa9 \xf0\x9f\x9a\xb6\"");
+  assert_text("a\xe2\x80\xa8"
+              "b\xe2\x80\xa9"
+              "c\xe2\x80\xaa",
+              "\"a\\u2028b\\u2029c\xe2\x80\xaa\"");
+}
+
+/* names of files may be any bytes: overlong forms, surrogates, a character that is cut off */
+static void bytes_that_are_no_text(void **state) {
+  (void)state;
+  assert_text("a\xff", "\"a\\ufffd\"");
+  assert_text("\xc0\xbc", "\"\\ufffd\\ufffd\"");
+  assert_text("\xe0\x80\xbc", "\"\\ufffd\\ufffd\\ufffd\"");
+  assert_text("\xed\xa0\x80", "\"\\ufffd\\ufffd\\ufffd\"");
+  assert_text("\xe2\x80", "\"\\ufffd\\ufffd\"");
+  assert_text("\xf4\x90\x80\x80", "\"\\ufffd\\ufffd\\ufffd\\ufffd\"");
+}
+
+static void json_without_blanks(void **state) {
+  (void)state;
+  static const char given[] =
+      "{\n  \"a b\": [1, -2.5e3 ,\t{ }],\r\n \"c\\\" d\\\\\": \"</script> \xe2\x80\xa8\"\n}\n";
+  ambulo__text_buffer out;
+  ambulo__text_init(&out, NULL);
+  ambulo__script_json(&out, given, strlen(given));
+  assert_string_equal(ambulo__text_data(&out),
+                      "{\"a b\":[1,-2.5e3,{}],\"c\\\" d\\\\\":\"\\u003c/script> \\u2028\"}");
+  ambulo__text_free(&out);
+}
+
+/* as JSON: numbers to six digits, whole ones to all of theirs */
+static void values(void **state) {
+  (void)state;
+  static const char *const both[][2] = {
+      {"1.23456789", "1.23457"},
+      {"-0.000123456789", "-0.000123457"},
+      {"9.9999996", "10"},
+      {"123456.789", "123457"},
+      {"12345678", "12345678"},
+      {"1234567.5", "1234570"},
+      {"1e-320", "1e-320"},
+      {"0.1", "0.1"},
+      {"0", "0"},
+      {"", "null"},
+      {"null", "null"},
+      {"nan", "\"nan\""},
+      {"1.2 m", "\"1.2 m\""},
+      {"<b>", "\"\\u003cb>\""},
+  };
+  for (size_t i = 0; i < sizeof both / sizeof both[0]; i++) {
+    ambulo__text_buffer out;
+    ambulo__text_init(&out, NULL);
+    ambulo__script_value(&out, both[i][0]);
+    assert_string_equal(ambulo__text_data(&out), both[i][1]);
+    ambulo__text_free(&out);
+  }
+}
+
+static int test_script_text_tests(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(texts),
+      cmocka_unit_test(bytes_that_are_no_text),
+      cmocka_unit_test(json_without_blanks),
+      cmocka_unit_test(values),
+  };
+  return cmocka_run_group_tests_name("page/script_text", tests, NULL, NULL);
+}
+
+/* Texts in a page: a JSON string of base64, in which the text stands packed. */
+
+static void comes_out_again(const char *text, size_t length) {
+  ambulo__text_buffer out;
+  ambulo__text_init(&out, NULL);
+  ambulo__packed_text(&out, text, length);
+  assert_int_equal(ambulo__text_status(&out), AMBULO_OK);
+  assert_true(out.length >= 2 && out.data[0] == '"' && out.data[out.length - 1] == '"');
+  out.data[out.length - 1] = '\0';
+  size_t bytes, size;
+  char *packed = unbase64(out.data + 1, &bytes);
+  unsigned char *got = unpacked(packed, bytes, &size);
+  assert_int_equal(size, length);
+  assert_memory_equal(got, text, length);
+  free(got);
+  free(packed);
+  ambulo__text_free(&out);
+}
+
+static void any_length(void **state) {
+  (void)state;
+  static const char text[] = "{\"summary\": [1, 2, 3], \"name\": \"\xc3\xbc<\\u2028\"}";
+  for (size_t length = 0; length < sizeof text; length++) comes_out_again(text, length);
+}
+
+static int test_packed_text_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(any_length)};
+  return cmocka_run_group_tests_name("page/packed_text", tests, NULL, NULL);
+}
+
+/* The page: whole or not at all, safe with any name, from folders that hold what they should. */
 
 enum { MOST_BYTES = 1200000 };
 
@@ -246,7 +362,7 @@ static void memory_may_run_out_anywhere(void **state) {
   ambulo_model_free(model);
 }
 
-int main(void) {
+static int test_page_tests(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {
       TEST(the_viewer_is_whole),
@@ -259,4 +375,8 @@ int main(void) {
       TEST(memory_may_run_out_anywhere),
   };
   return cmocka_run_group_tests_name("page/page", tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_script_text_tests() + test_packed_text_tests() + test_page_tests();
 }

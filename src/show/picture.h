@@ -1,11 +1,11 @@
-/* show/convert.h - SVG to PDF or PNG, by another program.
+/* show/picture.h - SVG to PDF or PNG, by another program.
  *
  * rsvg-convert belongs to librsvg, which draws the icons of desktops: it is packaged everywhere and
  * needs no display. As a program of its own it adds nothing to what the library links, and a fault
  * in it is an error message here. Text in, bytes out, through unnamed temporary files: no pipe can
  * fill up, and nothing is left behind. */
-#ifndef AMBULO_SHOW_CONVERT_H
-#define AMBULO_SHOW_CONVERT_H
+#ifndef AMBULO_SHOW_PICTURE_H
+#define AMBULO_SHOW_PICTURE_H
 
 #include "base/diagnostics.h"
 #include "base/text_buffer.h"

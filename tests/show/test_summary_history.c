@@ -1,6 +1,6 @@
 /* "convergence" of summary.json: lists of one length, null for what is not finite, no clock but in
  * seconds. */
-#include "show/history_json.h"
+#include "show/summary_json.h"
 
 #include "method/history.h"
 #include "support/walker_result.h"

@@ -1,6 +1,6 @@
-/* show/solution_yaml.h - solution.yaml: the unknowns with the basis they belong to. */
-#ifndef AMBULO_SHOW_SOLUTION_YAML_H
-#define AMBULO_SHOW_SOLUTION_YAML_H
+/* show/report.h - solution.yaml: the unknowns with the basis they belong to. */
+#ifndef AMBULO_SHOW_REPORT_H
+#define AMBULO_SHOW_REPORT_H
 
 #include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
