@@ -109,7 +109,8 @@ static const struct {
     {"constraints: {collision: {margin: -0.1}}\n", "-0.1", AMBULO_E_SCHEMA},
     {"constraints: {collision: {margn: 0.1}}\n", "did you mean 'margin'?", AMBULO_E_SCHEMA},
     {"constraints: {collision: [shank_l]}\n", "expected a mapping", AMBULO_E_SCHEMA},
-    {"obstacles: {name: a}\n", "expected a list of obstacles", AMBULO_E_SCHEMA},
+    {"obstacles: {name: a}\n", "expected a list of {name, center, half_size, heading, from, to, ",
+     AMBULO_E_SCHEMA},
     {"obstacles: [{name: a, center: [0, 0, 0]}]\n", "half_size", AMBULO_E_SCHEMA},
     {"obstacles: [{name: a, radius: 1}]\n", "from", AMBULO_E_SCHEMA},
     {"obstacles: [{name: a, center: [0, 0, 0], half_size: [1, 0, 1]}]\n", "half a size of 0 m",
@@ -165,7 +166,7 @@ static const struct {
     {"constraints: {reach: [{point: head_top, place: [0, 0, 1], at: 2}]}\n",
      "constraints.reach[0] is from 2 s to 2 s", AMBULO_E_PROBLEM},
     {"constraints: {reach: {point: head_top}}\n",
-     "expected a list of {point, place, at, tolerance}", AMBULO_E_SCHEMA},
+     "expected a list of {point, relative_to, place, at, tolerance}", AMBULO_E_SCHEMA},
 };
 
 static void refusals(void **state) {

@@ -77,7 +77,7 @@ static void refuses(const char *devices, const char *what) {
 
 static void refusals(void **state) {
   (void)state;
-  refuses("{name: a}", "got a mapping; expected a list");
+  refuses("{name: a}", "'devices' is not a list; expected a list of {kind, name, ");
   refuses("[{kind: spring, coordinate: knee_angle_r, stiffness: 1, rest: 0}]",
           "missing required key 'name'");
   refuses("[{name: a, coordinate: knee_angle_r}]", "missing required key 'kind'");

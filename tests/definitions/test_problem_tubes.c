@@ -71,7 +71,7 @@ static void refusals(void **state) {
     ambulo_status status;
   } cases[] = {
       {"{reference: FILE}", "expected a list", AMBULO_E_SCHEMA},
-      {"[FILE]", "expected a mapping with reference", AMBULO_E_SCHEMA},
+      {"[FILE]", "expected a mapping", AMBULO_E_SCHEMA},
       {"[{coordinates: {knee_angle_r: 9}}]", "reference", AMBULO_E_SCHEMA},
       {"[{reference: FILE}]", "coordinates", AMBULO_E_SCHEMA},
       {"[{reference: FILE, coordinates: [knee_angle_r]}]", "half widths", AMBULO_E_SCHEMA},

@@ -1,33 +1,22 @@
 /* problem/resize.c - see resize.h. */
 #include "problem/resize.h"
+#include "problem/members.h"
 #include "problem/term.h"
 
 #include <math.h>
 
-static void resize_gaps(ambulo_problem_definition *d, double longer) {
-  ambulo_clearance *c = &d->clearance;
-  ambulo_ground_reaction *r = &d->ground_reaction;
-  double *lengths[] = {&d->contact_tolerance,
-                       &d->support_margin,
-                       &c->height,
-                       &c->ceiling,
-                       &c->outward,
-                       &c->inward,
-                       &c->feet,
-                       &d->collision.margin,
-                       &r->moment_arm,
-                       &r->free_moment,
-                       &r->heel_pressure[0],
-                       &r->heel_pressure[1],
-                       &r->heel_roll,
-                       &r->flat_pressure[0],
-                       &r->flat_pressure[1],
-                       &r->toe_pressure[0],
-                       &r->toe_pressure[1],
-                       &r->pressure_width,
-                       &r->arc_pressure};
-  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) *lengths[i] *= longer;
-  r->loading_rate /= sqrt(longer); /* NaN, which says off, stays so */
+/* members that are as long as the body is, and the rate of loading; those of parts, too */
+static void resize_members(const ambulo__structure *structure, double longer, void *item) {
+  for (int i = 0; i < structure->count; i++) {
+    const ambulo__member *m = &structure->members[i];
+    double *value = (double *)(void *)((char *)item + m->at);
+    if (m->type == AMBULO__PART) resize_members(m->of, longer, value);
+    if (m->type != AMBULO__NUMBER) continue;
+    for (int k = 0; k < m->count; k++) { /* NaN, which says off, stays so */
+      if (m->flags & AMBULO__BODY_LENGTH) value[k] *= longer;
+      if (m->quantity == AMBULO__LOADING_RATE) value[k] /= sqrt(longer);
+    }
+  }
 }
 
 /* what one coordinate's scale and offset are multiplied by */
@@ -81,8 +70,8 @@ static void resize_term(ambulo_term *term, const ambulo_model *model, double lon
   }
   resize_peaks(term->passive, 2 * count, 2, heavier * longer);
   resize_peaks(term->strength, 2 * count, 3, heavier * longer);
-  if (term->kind == AMBULO_FORCE_RATE) term->weight *= longer;
-  if (term->kind == AMBULO_CLEARANCE) term->height *= longer;
+  if (ambulo__term_info_of(term->kind)->weight_is_length) term->weight *= longer;
+  resize_members(&ambulo__term_members, longer, term); /* height */
 }
 
 void ambulo__definition_resize(ambulo_problem_definition *d, int terms, double longer,
@@ -91,6 +80,6 @@ void ambulo__definition_resize(ambulo_problem_definition *d, int terms, double l
     const ambulo_term *view;
     ambulo_term *terms;
   } of = {d->terms};
-  resize_gaps(d, longer);
+  resize_members(&ambulo__definition_members, longer, d);
   for (int t = 0; t < terms; t++) resize_term(&of.terms[t], d->model, longer, heavier);
 }

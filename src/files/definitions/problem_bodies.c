@@ -7,44 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double most_margin = 1.0;   /* m */
 static const double usual_margin = 0.01; /* m */
 static const double farthest = 1000.0;   /* m */
 
-/* ---------------------------------------------------------------------- names */
-
-typedef const char *(*name_getter)(const ambulo_model *model, int index);
-
-static const char *capsule_name(const ambulo_model *model, int i) {
-  return model->capsules[i].name;
-}
-
-static const char *point_name(const ambulo_model *model, int i) {
-  return model->points[i].name;
-}
-
-/* the index of a name that stands at a node; -1 after an error with the nearest one */
-static int find(ambulo__problem_reader *reader, const ambulo__yaml_node *node, const char *kind,
-                int count, name_getter name_of) {
-  const char *name = ambulo__yaml_name(node);
-  if (!name[0]) return -1;
-  const char **names = ambulo__reader_alloc(reader, (size_t)count, sizeof *names);
-  if (!names) return -1;
-  char hint[100];
-  for (int i = 0; i < count; i++) {
-    names[i] = name_of(reader->model, i);
-    if (!strcmp(names[i], name)) return i;
-  }
-  const char *nearest = ambulo__nearest(name, names, (size_t)count);
-  if (nearest) (void)snprintf(hint, sizeof hint, "did you mean '%s'?", nearest);
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, nearest ? hint : NULL,
-                           "unknown %s (got '%s'); expected a %s of the model%s", kind, name, kind,
-                           count ? "" : ", which has none");
-  return -1;
-}
+enum { MOST_ITEMS = 10000 };
 
 static int find_capsule(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  return find(reader, node, "capsule", reader->model->capsule_count, capsule_name);
+  return ambulo__read_name_of(reader, node, AMBULO__NAMED_CAPSULE);
 }
 
 /* a list, or an error and NULL */
@@ -113,8 +82,8 @@ static void read_pairs(ambulo__problem_reader *reader, const ambulo__yaml_node *
 static void read_collision(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   ambulo_collision *collision = &reader->definition.collision;
   if (!section) return;
-  collision->margin =
-      ambulo__yaml_number_in(ambulo__yaml_get(section, "margin"), 0.0, most_margin, usual_margin);
+  collision->margin = usual_margin;
+  ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
   read_pairs(reader, ambulo__yaml_get(section, "pairs"), collision);
   ambulo__yaml_close(section);
 }
@@ -133,32 +102,17 @@ static void read_times(const ambulo__yaml_node *node, ambulo_reach *reach) {
   reach->to = times[1];
 }
 
-static void read_reach(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
-                       ambulo_reach *reach) {
-  reach->point = find(reader, ambulo__yaml_require(item, "point"), "point",
-                      reader->model->point_count, point_name);
-  if (reach->point < 0) reach->point = 0; /* that was said */
+static void read_reach(ambulo__problem_reader *reader, const ambulo__yaml_node *item, void *out) {
+  ambulo_reach *reach = out;
+  int point =
+      ambulo__read_name_of(reader, ambulo__yaml_require(item, "point"), AMBULO__NAMED_POINT);
+  reach->point = point < 0 ? 0 : point; /* that was said */
   const ambulo__yaml_node *other = ambulo__yaml_get(item, "relative_to");
-  if (other) {
-    reach->about = find(reader, other, "point", reader->model->point_count, point_name);
-    reach->is_relative = reach->about >= 0;
-  }
-  (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "place"), 3, reach->place);
-  reach->to = INFINITY;
+  reach->about = ambulo__read_name_of(reader, other, AMBULO__NAMED_POINT);
+  reach->is_relative = reach->about >= 0;
+  ambulo__read_members(reader, item, &ambulo__reach_members, "", reach);
   if (!other || ambulo__yaml_get(item, "at")) read_times(ambulo__yaml_require(item, "at"), reach);
-  reach->tolerance = ambulo__yaml_number_in(ambulo__yaml_get(item, "tolerance"), 0.0, 1.0, 0.0);
   ambulo__yaml_close(item);
-}
-
-static void read_reaches(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  const ambulo__yaml_node *list = list_of(node, "{point, place, at, tolerance}");
-  if (!list) return;
-  int count = ambulo__yaml_items(list);
-  ambulo_reach *reaches = ambulo__reader_alloc(reader, (size_t)count, sizeof *reaches);
-  for (int i = 0; reaches && i < count; i++)
-    read_reach(reader, ambulo__yaml_item(list, i), &reaches[i]);
-  reader->definition.reaches = reaches;
-  reader->definition.reach_count = reaches ? count : 0;
 }
 
 /* ------------------------------------------------------------------ obstacles */
@@ -213,27 +167,25 @@ static void read_capsules(ambulo__problem_reader *reader, const ambulo__yaml_nod
 }
 
 static void read_obstacle(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
-                          ambulo_obstacle *obstacle) {
-  obstacle->name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
+                          void *out) {
+  ambulo_obstacle *obstacle = out;
+  obstacle->margin = usual_margin;
+  ambulo__read_members(reader, item, &ambulo__obstacle_members, "", obstacle);
   read_shape(reader, item, obstacle);
-  obstacle->margin =
-      ambulo__yaml_number_in(ambulo__yaml_get(item, "margin"), 0.0, most_margin, usual_margin);
   read_capsules(reader, ambulo__yaml_get(item, "capsules"), obstacle);
   ambulo__yaml_close(item);
 }
 
 void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  ambulo_problem_definition *d = &reader->definition;
   const ambulo__yaml_node *section = ambulo__yaml_get(root, "constraints");
   if (ambulo__yaml_is(section, AMBULO__YAML_MAPPING)) {
     read_collision(reader, ambulo__yaml_get(section, "collision"));
-    read_reaches(reader, ambulo__yaml_get(section, "reach"));
+    d->reaches =
+        ambulo__read_items(reader, ambulo__yaml_get(section, "reach"), &ambulo__reach_members, 0,
+                           MOST_ITEMS, read_reach, &d->reach_count);
   }
-  const ambulo__yaml_node *list = list_of(ambulo__yaml_get(root, "obstacles"), "obstacles");
-  if (!list) return;
-  int count = ambulo__yaml_items(list);
-  ambulo_obstacle *obstacles = ambulo__reader_alloc(reader, (size_t)count, sizeof *obstacles);
-  for (int i = 0; obstacles && i < count; i++)
-    read_obstacle(reader, ambulo__yaml_item(list, i), &obstacles[i]);
-  reader->definition.obstacles = obstacles;
-  reader->definition.obstacle_count = obstacles ? count : 0;
+  d->obstacles =
+      ambulo__read_items(reader, ambulo__yaml_get(root, "obstacles"), &ambulo__obstacle_members, 0,
+                         MOST_ITEMS, read_obstacle, &d->obstacle_count);
 }

@@ -5,37 +5,31 @@
 
 /* ---------------------------------------------------------------- constraints */
 
-/* a number, or the word `off`: no row */
-static double read_minimum_force(const ambulo__yaml_node *node) {
-  static const char *const words[] = {"off"};
-  const char *text = ambulo__yaml_text(node);
-  if (!text[0]) return AMBULO_OFF;
-  if (text[0] == 'o') {
-    (void)ambulo__yaml_choice(node, words, 1, 0);
-    return AMBULO_OFF;
+static void read_strike_pitch(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  double *pitch = reader->definition.strike_pitch;
+  if (!node) return;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) || ambulo__yaml_items(node) != 2) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "'strike_pitch' is not a list of two angles");
+    return;
   }
-  return ambulo__yaml_number_in(node, 0.0, 100.0, AMBULO_OFF);
+  for (int i = 0; i < 2; i++)
+    pitch[i] = ambulo__read_plain_angle(reader, ambulo__yaml_item(node, i), 0.0);
+  if (pitch[0] < pitch[1] && fabs(pitch[0]) < 1.5 && fabs(pitch[1]) < 1.5) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                           "from %g to %g rad; expected two rising angles of less than 1.5 rad",
+                           pitch[0], pitch[1]);
 }
 
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
-  static const char *const supports[] = {"off", "box", "hull"};
-  static const char *const limits[] = {"off", "nodes", "control_points"};
   ambulo_problem_definition *d = &reader->definition;
   if (!section) return;
-  d->ground_height =
-      ambulo__yaml_number_in(ambulo__yaml_get(section, "ground_height"), -1e3, 1e3, 0.0);
-  d->ground_penetration = ambulo__yaml_boolean(ambulo__yaml_get(section, "ground_penetration"), 0);
-  d->foot_strike = ambulo__yaml_boolean(ambulo__yaml_get(section, "foot_strike"), 0);
-  int support = ambulo__yaml_choice(ambulo__yaml_get(section, "zmp"), supports, 3, 0);
-  d->support = (ambulo_support)support;
-  d->support_margin =
-      ambulo__yaml_number_in(ambulo__yaml_get(section, "zmp_margin"), 0.0, 10.0, 0.0);
-  d->minimum_force = read_minimum_force(ambulo__yaml_get(section, "minimum_force"));
-  int joint_limits = ambulo__yaml_choice(ambulo__yaml_get(section, "joint_limits"), limits, 3, 0);
-  d->joint_limits = (ambulo_limit_mode)joint_limits;
-  d->speed_limits = ambulo__yaml_boolean(ambulo__yaml_get(section, "speed_limits"), 0);
-  d->torque_limits = ambulo__yaml_boolean(ambulo__yaml_get(section, "torque_limits"), 0);
-  ambulo__read_contact_rows(reader, section);
+  ambulo__read_members(reader, section, &ambulo__definition_members, "constraints.", d);
+  read_strike_pitch(reader, ambulo__yaml_get(section, "strike_pitch"));
+  const ambulo__yaml_node *clearance = ambulo__reader_section(section, "clearance");
+  if (clearance)
+    ambulo__read_members(reader, clearance, &ambulo__clearance_members, "", &d->clearance);
+  ambulo__yaml_close(clearance);
   ambulo__yaml_expect(section, "tubes");     /* read with the schedule known */
   ambulo__yaml_expect(section, "collision"); /* with the model known */
   ambulo__yaml_expect(section, "reach");
@@ -43,28 +37,6 @@ void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml
 }
 
 /* ----------------------------------------------------------------------- ends */
-
-double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                                     int i) {
-  const ambulo_coordinate *c = ambulo_model_coordinate(reader->model, i);
-  double value = ambulo__yaml_number(node, 0.0);
-  if (c->type != AMBULO_REVOLUTE) return value;
-  if (reader->radians == 0.0) {
-    if (!reader->asked_for_unit) {
-      (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                               "'%s' is an angle, but the file does not state its unit; expected "
-                               "'angles: degrees' or 'angles: radians'",
-                               c->name);
-    }
-    reader->asked_for_unit = 1;
-    return 0.0;
-  }
-  if (reader->radians == 1.0 && fabs(value) > 6.2832) {
-    ambulo__yaml_warning(node, "write 'angles: degrees' if these are degrees",
-                         "%g for '%s' is more than a whole turn in radians", value, c->name);
-  }
-  return reader->radians * value;
-}
 
 typedef struct end_list {
   ambulo_end_value *values;
@@ -129,15 +101,13 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
   static const char *const kinds[] = {"free", "periodic", "mirrored"};
   ambulo_problem_definition *d = &reader->definition;
   if (!section) return;
+  ambulo__read_members(reader, section, &ambulo__definition_members, "ends.", d);
   const ambulo__yaml_node *given = ambulo__yaml_get(section, "kind");
   int kind = ambulo__yaml_choice(given, kinds, 3, given ? -1 : 0); /* -1: that was said */
   d->ends = kind < 0 ? AMBULO_ENDS_FREE : (ambulo_ends)kind;
   check_steps(reader, ambulo__yaml_get(section, "kind"));
-  d->ends_order = ambulo__yaml_integer(ambulo__yaml_get(section, "order"), 0, 2, 1);
   reader->keys.travel = ambulo__yaml_get(section, "travel") != NULL;
-  d->rise = ambulo__yaml_number_in(ambulo__yaml_get(section, "rise"), -1e6, 1e6, 0.0);
   if (kind == 0) check_idle(section, d->rise);
-  d->travel = ambulo__yaml_number_in(ambulo__yaml_get(section, "travel"), -1e6, 1e6, d->travel);
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);
   end_list list = {ambulo__reader_alloc(reader, 6 * coordinates, sizeof(ambulo_end_value)), 0};
   if (!list.values) return;

@@ -1,12 +1,6 @@
 /* definitions/problem_grid.c - `time:` and `trajectory:` of a problem file. */
 #include "definitions/problem_reader.h"
 
-#include "trajectory/basis.h"
-
-enum { MOST_INTERVALS = 100000 };
-
-static const double longest_time = 1e6; /* s */
-
 static const char *const grids[] = {"uniform", "events"}; /* ambulo_grid */
 
 void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
@@ -16,12 +10,9 @@ void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *
   if (!time) return;
   const ambulo__yaml_node *duration =
       reader->gait ? ambulo__yaml_get(time, "duration") : ambulo__yaml_require(time, "duration");
-  d->duration = ambulo__yaml_number_in(duration, 1e-6, longest_time, d->duration);
+  ambulo__read_member(reader, duration, &ambulo__definition_members, "time.duration", d);
   reader->has_duration = duration != NULL;
-  d->intervals =
-      ambulo__yaml_integer(ambulo__yaml_require(time, "intervals"), 1, MOST_INTERVALS, 12);
-  int grid = ambulo__yaml_choice(ambulo__yaml_get(time, "grid"), grids, 2, 0);
-  d->grid = (ambulo_grid)(AMBULO_GRID_UNIFORM + grid);
+  ambulo__read_members(reader, time, &ambulo__definition_members, "time.", d);
   reader->grid = ambulo__yaml_get(time, "grid");
   ambulo__yaml_close(time);
 }
@@ -95,20 +86,21 @@ void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_
   ambulo_problem_definition *d = &reader->definition;
   const ambulo__yaml_node *section = ambulo__reader_section(root, "trajectory");
   if (!section) return;
-  int basis = ambulo__yaml_choice(ambulo__yaml_get(section, "basis"), bases, 3, 0);
-  d->discretization = (ambulo_discretization)(AMBULO_BSPLINE + basis);
+  ambulo__read_members(reader, section, &ambulo__definition_members, "trajectory.", d);
+  const char *basis = bases[d->discretization - AMBULO_BSPLINE];
   const ambulo__yaml_node *intervals = ambulo__yaml_get(section, "intervals");
-  d->spline_intervals = ambulo__yaml_integer(intervals, 1, MOST_INTERVALS, 0);
+  d->spline_intervals = ambulo__yaml_integer(intervals, 1, AMBULO__MOST_INTERVALS, 0);
   if (d->discretization == AMBULO_BSPLINE) {
-    d->degree = ambulo__yaml_integer(ambulo__yaml_get(section, "degree"), 3, AMBULO__MAX_DEGREE, 3);
     const ambulo__yaml_node *breakpoints = ambulo__yaml_get(section, "breakpoints");
+    ambulo__read_member(reader, ambulo__yaml_get(section, "degree"), &ambulo__definition_members,
+                        "trajectory.degree", d);
     if (breakpoints) read_breakpoints(reader, breakpoints, intervals);
     read_knots(reader, ambulo__yaml_get(section, "knots"), breakpoints);
   } else {
-    refuse_for_basis(section, "degree", bases[basis]);
-    refuse_for_basis(section, "breakpoints", bases[basis]);
-    refuse_for_basis(section, "knots", bases[basis]);
-    refuse_grid_for_basis(reader, bases[basis]);
+    refuse_for_basis(section, "degree", basis);
+    refuse_for_basis(section, "breakpoints", basis);
+    refuse_for_basis(section, "knots", basis);
+    refuse_grid_for_basis(reader, basis);
   }
   ambulo__yaml_close(section);
 }

@@ -10,6 +10,7 @@
 #include "ambulo/solve.h"
 #include "ambulo/tools/load.h"
 #include "formats/yaml_node.h"
+#include "problem/members.h"
 #include "problem/nlp.h"
 #include "definitions/model_file.h"
 
@@ -60,6 +61,38 @@ void ambulo__reader_clear(ambulo__problem_reader *reader);
 /* The mapping under a key of the root; NULL (reported unless absent) for anything else. */
 const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key);
 
+/* ---------------------------------------------------------------- by the tables of members */
+
+/* Reads what the mapping `node` has of the members of `item` whose keys begin with `prefix` ("",
+ * "constraints.") and have no further point; what it lacks stays as it is. Members that are read
+ * apart, parts and arrays are the caller's, and closing the mapping. */
+void ambulo__read_members(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          const ambulo__structure *structure, const char *prefix, void *item);
+
+/* Reads one of them, also one that is read apart, from where its value stands. */
+void ambulo__read_member(ambulo__problem_reader *reader, const ambulo__yaml_node *value,
+                         const ambulo__structure *structure, const char *key, void *item);
+
+typedef void ambulo__item_reader(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                 void *item);
+/* The items of a list, each set to its defaults and read by `read`, their number in *count. NULL
+ * without a list, or after an error: something else, more than `most` or less than `least`. */
+void *ambulo__read_items(ambulo__problem_reader *reader, const ambulo__yaml_node *list,
+                         const ambulo__structure *structure, int least, int most,
+                         ambulo__item_reader *read, int *count);
+
+/* What has names in a model. */
+typedef enum ambulo__named {
+  AMBULO__NAMED_LINK,
+  AMBULO__NAMED_COORDINATE,
+  AMBULO__NAMED_POINT,
+  AMBULO__NAMED_FOOT,
+  AMBULO__NAMED_CAPSULE
+} ambulo__named;
+/* The index of what a node names; -1 without a node, or after an error with the nearest name. */
+int ambulo__read_name_of(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         ambulo__named kind);
+
 /* A value of coordinate i or of its rates in SI units and radians; the file's unit of angle
  * applies to revolute coordinates. */
 double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
@@ -80,8 +113,6 @@ void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_
 void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 void ambulo__scale_to_subject(ambulo__problem_reader *reader);
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
-/* The rows' tolerances and the clearance, keys of `constraints`. */
-void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
 void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* An item of `load` that hands hold, at the end of definition.holds, of which there are at most

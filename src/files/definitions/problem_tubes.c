@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { PER_INTERVAL = 10 };
+enum { PER_INTERVAL = 10, MOST_TUBES = 1000 };
 
 /* half_width[d] of the coordinates that are listed, in the order of the model */
 static void read_widths(ambulo__problem_reader *reader, const ambulo__yaml_node *mapping,
@@ -28,8 +28,8 @@ static void read_widths(ambulo__problem_reader *reader, const ambulo__yaml_node 
   ambulo__yaml_close(mapping);
 }
 
-static void read_tube(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
-                      ambulo_tube *tube) {
+static void read_tube(ambulo__problem_reader *reader, const ambulo__yaml_node *item, void *out) {
+  ambulo_tube *tube = out;
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);
   double *half_width = ambulo__reader_alloc(reader, coordinates, sizeof *half_width);
   double *has_column = ambulo__reader_alloc(reader, coordinates, sizeof *has_column);
@@ -52,25 +52,7 @@ static void read_tube(ambulo__problem_reader *reader, const ambulo__yaml_node *i
 void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   const ambulo__yaml_node *section = ambulo__yaml_get(root, "constraints");
   if (!ambulo__yaml_is(section, AMBULO__YAML_MAPPING)) return;
-  const ambulo__yaml_node *list = ambulo__yaml_get(section, "tubes");
-  if (!list) return;
-  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
-    (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
-                             "expected a list of {reference, coordinates}");
-    return;
-  }
-  int count = ambulo__yaml_items(list);
-  ambulo_tube *tubes = ambulo__reader_alloc(reader, (size_t)count, sizeof *tubes);
-  if (!tubes) return;
-  for (int t = 0; t < count; t++) {
-    const ambulo__yaml_node *item = ambulo__yaml_item(list, t);
-    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
-      read_tube(reader, item, &tubes[t]);
-    } else {
-      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
-                               "expected a mapping with reference and coordinates");
-    }
-  }
-  reader->definition.tubes = tubes;
-  reader->definition.tube_count = count;
+  reader->definition.tubes =
+      ambulo__read_items(reader, ambulo__yaml_get(section, "tubes"), &ambulo__tube_members, 0,
+                         MOST_TUBES, read_tube, &reader->definition.tube_count);
 }
