@@ -44,10 +44,14 @@ pre { padding: .6em; overflow-x: auto; }
 section > h1 { border-top: 3px solid #888; padding-top: .6em; margin-top: 3em; }
 nav ul { list-style: none; padding-left: 0; } nav ul.inner { padding-left: 2em; font-size: .9em; }
 img { max-width: 100%; }
+#search { width: 100%; font: inherit; padding: .3em .5em; box-sizing: border-box; }
+#found { list-style: none; padding-left: 0; } #found li { margin: .5em 0; font-size: .9em; }
 </style>
 </head>
 <body>
 <h1>Ambulo $version</h1>
+<input id="search" type="search" placeholder="Search all pages" aria-label="Search all pages">
+<ol id="found"></ol>
 <nav><ul>
 END
   # headings of the first two levels, each on a line of its own
@@ -58,6 +62,40 @@ END
     END { if (open) print "</ul></li>" }'
   echo '</ul></nav>'
   cat "$work/body"
+  cat <<'END'
+<script>
+// every paragraph, item, row and block of code, under the heading it belongs to
+const places = [];
+let heading = null;
+for (const node of document.querySelectorAll('section h1, section h2, section h3, section p, section li, section tr, section pre')) {
+  if (/^H[123]$/.test(node.tagName)) heading = node;
+  places.push({node, heading, text: node.textContent.replace(/\s+/g, ' ')});
+}
+const box = document.getElementById('search');
+const found = document.getElementById('found');
+const most = 40;
+function search() {
+  const words = box.value.toLowerCase().split(/\s+/).filter((word) => word.length > 1);
+  const hits = !words.length ? [] : places.filter((place) => {
+    const text = ((place.heading ? place.heading.textContent + ' ' : '') + place.text).toLowerCase();
+    return words.every((word) => text.includes(word)) && words.some((word) => place.text.toLowerCase().includes(word));
+  });
+  found.replaceChildren(...hits.slice(0, most).map((hit, i) => {
+    const item = document.createElement('li');
+    const link = document.createElement('a');
+    if (!hit.node.id) hit.node.id = 'place-' + places.indexOf(hit);
+    link.href = '#' + hit.node.id;
+    link.textContent = hit.heading ? hit.heading.textContent : 'Ambulo';
+    const at = Math.max(0, hit.text.toLowerCase().indexOf(words.find((word) => hit.text.toLowerCase().includes(word))) - 60);
+    item.append(link, ': ' + hit.text.slice(at, at + 200));
+    return item;
+  }));
+  if (words.length && !hits.length) found.textContent = 'Nothing found.';
+  if (hits.length > most) found.append(`and ${hits.length - most} more`);
+}
+box.addEventListener('input', search);
+</script>
+END
   echo '</body></html>'
 } >"$work/book.html"
 mv "$work/book.html" "$file"
