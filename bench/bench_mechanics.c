@@ -98,18 +98,6 @@ static double *doubles(size_t count) {
   return at;
 }
 
-/* Both feet loaded, the left one by 0.3 to 0.7. */
-static double *ground_shares(random_source *source) {
-  double *ground = doubles(AMBULO__GROUND_ENTRIES * AMBULO__LANES);
-  for (int i = 0; i < AMBULO__GROUND_ENTRIES * AMBULO__LANES; i++) {
-    static const double middle[AMBULO__GROUND_ENTRIES] = {0.5, 0.6, 0.2, 0, 1};
-    static const double range[AMBULO__GROUND_ENTRIES] = {0.2, 0.1, 0.1, 0, 0.1};
-    int entry = i / AMBULO__LANES;
-    ground[i] = middle[entry] + range[entry] * random_between(source, -1, 1);
-  }
-  return ground;
-}
-
 /* A point, then weights and centres of two contacts, one metre below the world origin. */
 static double *contact_weights(random_source *source) {
   static const double middle[11] = {0, 0, -1, 0.5, 0.3, 0.1, -1, 0.5, -0.3, -0.1, -1};
@@ -120,12 +108,11 @@ static double *contact_weights(random_source *source) {
   return ground;
 }
 
-typedef enum footing { in_air, on_feet, on_contacts } footing;
+typedef enum footing { in_air, on_contacts } footing;
 
 static ambulo_status compile(const ambulo_model *model, footing kind, ambulo__plan **plan) {
   int link[2];
   if (kind == in_air) return ambulo__plan_create(model, NULL, plan);
-  if (kind == on_feet) return ambulo__plan_create_grounded(model, -10, NULL, plan);
   for (int f = 0; f < 2; f++) link[f] = model->points[model->feet[f].heel_center].link;
   return ambulo__plan_create_contacts(model, link, 2, 0.07, 0.2, NULL, plan);
 }
@@ -135,7 +122,6 @@ static rig rig_create(const ambulo_model *model, footing kind) {
   random_source source = {7};
   r.model = model;
   if (compile(model, kind, &r.plan) != AMBULO_OK) exit(1);
-  if (kind == on_feet) r.ground = ground_shares(&source);
   if (kind == on_contacts) r.ground = contact_weights(&source);
   if (ambulo_mechanics_create(model, NULL, &r.mechanics) != AMBULO_OK) exit(1);
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(r.plan);
@@ -268,18 +254,15 @@ static double quotient(rig *above, rig *below, task run) {
   return bench_median(ratio, turns);
 }
 
-/* The body on its feet over the body in the air, and on a contact at each foot over on its feet. */
+/* The body on a contact at each foot over the body in the air. */
 static void report_ground(bench_table *table, rig *air) {
   char quantity[bench_key];
-  rig feet = rig_create(air->model, on_feet), contacts = rig_create(air->model, on_contacts);
-  feet.kernels = contacts.kernels = air->kernels;
+  rig contacts = rig_create(air->model, on_contacts);
+  contacts.kernels = air->kernels;
   for (int k = 0; k < tasks; k++) {
-    (void)snprintf(quantity, sizeof quantity, "%s with ground reaction over without", task_name[k]);
-    bench_put(table, quantity, "ratio", quotient(&feet, air, task_run[k]));
-    (void)snprintf(quantity, sizeof quantity, "%s with two contacts over two feet", task_name[k]);
-    bench_put(table, quantity, "ratio", quotient(&contacts, &feet, task_run[k]));
+    (void)snprintf(quantity, sizeof quantity, "%s with two contacts over without", task_name[k]);
+    bench_put(table, quantity, "ratio", quotient(&contacts, air, task_run[k]));
   }
-  rig_free(&feet);
   rig_free(&contacts);
 }
 

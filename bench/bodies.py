@@ -5,7 +5,7 @@
 writes into OUT:
 
   limbs_29.yaml, limbs_37, limbs_45, limbs_57, and each with _posture: the walk of
-    tests/two_step/walk_normal_21.yaml by its body with one to three pairs of arms, which are copies
+    tests/support/walk_rigid.yaml by models/lower_body_21.yaml with one to three pairs of arms, which are copies
     of its legs on the thorax (without feet at 29 and 37 coordinates) with a quarter of their mass in
     all. Without the posture term nothing but torques says where the arms are.
   extra_SEED_K.yaml: models/walk_whole_body_45.yaml by its body with 2 K further joints, K from 1 to
@@ -60,15 +60,15 @@ def legs_as_arms(legs, pair, share, feet):
 
 
 def limbs(folder, coordinates, pairs, feet):
-    body = read("tests", "two_step", "lower_body_21.yaml")
-    walk = read("tests", "two_step", "walk_normal_21.yaml")
+    body = read("models", "lower_body_21.yaml")
+    walk = read("tests", "support", "walk_rigid.yaml")
     start, end = body.index("  # right leg"), body.index("\npoints:")
     legs = body[start:end]
     arms = [legs_as_arms(legs, pair, 0.25 / pairs, feet) for pair in range(1, pairs + 1)]
     write(folder, f"limbs_body_{coordinates}.yaml", body[:end] + "\n" + "\n".join(arms) + body[end:])
     names = [name for arm in arms for name in re.findall(r"coordinate: \{name: (\w+)", arm)]
     assert 21 + len(names) == coordinates
-    walk = walk.replace("lower_body_21.yaml", f"limbs_body_{coordinates}.yaml")
+    walk = walk.replace("../../models/lower_body_18_rigid.yaml", f"limbs_body_{coordinates}.yaml")
     walk = walk.replace("subtalar_angle_l: 0.02}", "subtalar_angle_l: 0.02,\n      "
                         + ", ".join(f"{name}: 0.03" for name in names) + "}")
     posture = ("  - {term: posture, name: arm_posture, weight: 0.05, scale: {"

@@ -2,10 +2,10 @@
 """What a time grid and a trajectory cost and give: the table of docs/performance.md.
 
     python3 bench/grid_table.py build/ambulo models shipped walk walk_normal walk_loaded
-    python3 bench/grid_table.py build/ambulo tests/two_step walk_normal walk_fast walk_slow
+    python3 bench/grid_table.py build/ambulo tests/support walk_rigid
 
 shipped: each walk as its file says, and how far its objective is from that of four times the
-nodes. Without it, for each walk and setting of a list (walks with the prescribed split), solved from
+nodes. Without it, for each walk and setting of a list (walks on rigid feet), solved from
 zero:
   f           objective, and how far it is from that of a grid four times as fine (K 48 of degree
               4, nodes and knots on events), %, and from that trajectory's on sixteen times the nodes

@@ -97,10 +97,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_pro
 /* What is set about the ground's force. */
 AMBULO_API const ambulo_ground_reaction *
 ambulo_problem_ground_reaction(const ambulo_problem *problem);
-/* Prescribed share of the load that `foot` carries at time t: 0 without ground reaction, NaN where
- * contacts share the load by themselves. */
-AMBULO_API double ambulo_problem_load_share(const ambulo_problem *problem, int foot, double time);
-
 /* Which contact of `foot` is active at time t: its index, or -1. */
 AMBULO_API int ambulo_problem_contact_at(const ambulo_problem *problem, int foot, double time);
 /* Which contact of `patch` is. */

@@ -12,34 +12,15 @@ extern "C" {
 
 typedef enum ambulo_reaction_kind {
   AMBULO_REACTION_NONE = 0, /* torques as if the root were carried by its own six forces */
-  AMBULO_REACTION_TWO_STEP, /* the root wrench is shared between the two feet and subtracted along
-                              the legs: real joint torques */
-  AMBULO_REACTION_SHARED    /* the contacts that are down share the root wrench by themselves */
+  AMBULO_REACTION_SHARED    /* the contacts that are down share the root wrench, which is then
+                               subtracted along the limbs: real joint torques */
 } ambulo_reaction_kind;
 
-/* Share a of the front foot in double support; u runs from its strike (0) to the toe-off of the
- * rear foot (1). In single support the foot on the ground carries everything. */
-typedef enum ambulo_transfer {
-  AMBULO_TRANSFER_NOT_SET = 0, /* refused with AMBULO_REACTION_TWO_STEP */
-  AMBULO_TRANSFER_EARLY,       /* 1 - (1 - u)^exponent */
-  AMBULO_TRANSFER_LINEAR,      /* u */
-  AMBULO_TRANSFER_SMOOTH       /* u^2 (3 - 2 u) */
-} ambulo_transfer;
-
-/* Two-step ground reaction, and the rows it makes possible. With D the nominal centre of pressure
- * of the front foot (its heel) less that of the rear foot (0.02 m ahead of its ball, of a body of
- * 1.75 m), F the root
- * force, F_n its normal part, z the height of the centre of mass:
- *   force on the front foot   a F - h,    on the rear foot   (1 - a) F + h,
- *   h = shear a (1 - a) F_n D / z
- * and each foot's centre of pressure is the ZMP + (1 - a) D, the ZMP - a D. */
+/* The force of the ground and of other surfaces, and the rows it makes possible. */
 typedef struct ambulo_ground_reaction {
   ambulo_reaction_kind kind;
-  ambulo_transfer transfer;
-  double exponent;         /* >= 1 */
-  double shear;            /* 1: both feet push towards the centre of mass; 0: shares of F */
-  double friction;         /* |F_forward|, |F_left| <= friction F_n, in total and of each foot;
-                              AMBULO_OFF: no rows */
+  double friction;         /* |F_forward|, |F_left| <= friction F_n of each contact; AMBULO_OFF: no
+                              rows */
   double free_moment;      /* |T| <= free_moment m g, m; AMBULO_OFF: no rows */
   int pressure;            /* 1: rows on the centre of pressure of each loaded foot: */
   double heel_pressure[2]; /* on its heel: from the heel, along the foot, m; the front end moves
@@ -48,10 +29,10 @@ typedef struct ambulo_ground_reaction {
   double flat_pressure[2]; /* flat: behind from the heel, ahead from the ball (toe centre), m */
   double toe_pressure[2];  /* on its toes: from the ball, m */
   double pressure_width;   /* to either side, m */
-  double arc_pressure;     /* shared, of a foot that rolls on an arc: how far from under the arc's
+  double arc_pressure;     /* of a foot that rolls on an arc: how far from under the arc's
                               centre, ahead     and behind, m */
 
-  /* Shared (kind AMBULO_REACTION_SHARED): the forces f_c and moments m_c of the contacts, about
+  /* The forces f_c and moments m_c of the contacts, about
    * their centres p_c, are those that carry the root wrench and minimize
    *   sum_c ( |f_c across e_c|^2 + slant^2 (f_c . e_c)^2 + |m_c|^2 / moment_arm^2 ) / w_c
    * with e_c the direction from p_c to the centre of mass and w_c(t) from 0 to 1 and back over the

@@ -118,8 +118,8 @@ static ambulo_status load_problem(const ambulo_allocator *a, ambulo_diagnostics 
 /* a reference motion, a table of its own */
 static ambulo_status load_tracking(const ambulo_allocator *a, ambulo_diagnostics *list) {
   ambulo_problem *problem = NULL;
-  ambulo_status status = ambulo_problem_load(AMBULO_SOURCE_DIR "/tests/two_step/walk_tracking.yaml",
-                                             NULL, 0, a, list, &problem);
+  ambulo_status status = ambulo_problem_load(AMBULO_SOURCE_DIR "/models/walk_tracking.yaml", NULL,
+                                             0, a, list, &problem);
   ambulo_problem_free(problem);
   return status;
 }

@@ -19,7 +19,6 @@ static void prepare(row_fixture *f, int planar) {
   f->definition.ground_reaction.kind = AMBULO_REACTION_SHARED;
   f->definition.ground_reaction.flight_tolerance = 0.02;
   f->context.channels.feet = f->context.channels.slots = 2;
-  f->context.channels.slot_rows = 6;
   free(f->channel);
   f->channel =
       calloc((size_t)(ROW_NODES * ambulo__channel_count(&f->context.channels)), sizeof(double));

@@ -10,7 +10,7 @@
  * from 30 % of its swing on */
 static void events_are_those_of_the_gait(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &a, &events),
@@ -64,7 +64,7 @@ static void edges_of_steps_are_events(void **state) {
 /* contacts alone: no tip */
 static void knots_know_contacts_only(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_CONTACTS, &a, &events),
@@ -78,7 +78,7 @@ static void knots_know_contacts_only(void **state) {
 /* nothing has to clear the ground without rows that ask for it, nor a foot without a tip */
 static void tips_that_need_not_clear_make_no_event(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   dense_fixture f;
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
@@ -180,6 +180,12 @@ static void any_phases_are_shared_out(void **state) {
   }
 }
 
+/* where the k-th of n nodes stands in its phase: dense beside the events, by 0.8 */
+static double graded(int k, int n) {
+  double s = (double)k / n, turn = 2.0 * acos(-1.0);
+  return s - 0.8 * sin(turn * s) / turn;
+}
+
 /* N = 25: 4, 2, 5.7, 7.3 and 6 are due */
 static void the_walk_has_nodes_at_its_events(void **state) {
   (void)state;
@@ -187,15 +193,15 @@ static void the_walk_has_nodes_at_its_events(void **state) {
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events"};
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 2, NULL, NULL, &p),
-      AMBULO_OK);
+      ambulo_problem_load("tests/support/walk_rigid.yaml", settings, 2, NULL, NULL, &p), AMBULO_OK);
   const double toe_off = 0.62 * 1.08 - 0.54, tip = toe_off + 0.3 * (1.08 - 0.62 * 1.08);
   const double want[] = {0.0, 0.08 * 1.08, toe_off, tip, 0.38 * 1.08, 0.54};
   for (int i = 0; i < 6; i++) assert_close(p->times[first[i]], want[i], 1e-12);
   for (int i = 0; i < 5; i++) {
     int count = first[i + 1] - first[i];
     for (int k = 0; k < count; k++)
-      assert_close(p->times[first[i] + k], want[i] + (want[i + 1] - want[i]) * k / count, 1e-12);
+      assert_close(p->times[first[i] + k], want[i] + (want[i + 1] - want[i]) * graded(k, count),
+                   1e-12);
   }
   /* K = 17: 2.72, 1.36, 8.84 and 4.08 are due */
   static const int knot[] = {0, 3, 4, 13, 17};
@@ -225,7 +231,7 @@ static void knots_are_kept_apart(void **state) {
     const char *const settings[] = {"time.grid=events", "trajectory.knots=events", text};
     (void)snprintf(text, sizeof text, "gait.phases.toe_off=%.17g", toe_off[i]);
     assert_int_equal(
-        ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 3, NULL, NULL, &p), 0);
+        ambulo_problem_load("tests/support/walk_rigid.yaml", settings, 3, NULL, NULL, &p), 0);
     const double *knot = ambulo__basis_breakpoints(p->basis);
     double flat = 1.08 * 0.08, leaves = 1.08 * (toe_off[i] - 0.5);
     for (int k = 0; k < p->nodes; k++) nodes += fabs(p->times[k] - leaves) < 1e-9;
@@ -240,7 +246,7 @@ static void knots_are_kept_apart(void **state) {
 
 static void uniform_grids_are_as_before(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   assert_int_equal(ambulo_problem_grid(p), AMBULO_GRID_UNIFORM);
   assert_null(p->before);
   for (int k = 0; k <= 25; k++) assert_true(p->times[k] == k * p->definition.duration / 25);
@@ -258,7 +264,7 @@ static void uniform_grids_are_as_before(void **state) {
 /* contacts that no problem would have still give rising times */
 static void contacts_need_not_be_legal(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_problem_definition d = p->definition;
   const ambulo_contact odd[] = {{7, AMBULO_CONTACT_FLAT, 0.3, 0.1, .place = {0, 0}},
                                 {-1, AMBULO_CONTACT_FLAT, NAN, 9.0, .place = {0, 0}},
@@ -285,8 +291,7 @@ static void lack_of_memory_is_survived(void **state) {
   ambulo_problem *p = NULL;
   int done = 0;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 2, NULL, NULL, &p),
-      AMBULO_OK);
+      ambulo_problem_load("tests/support/walk_rigid.yaml", settings, 2, NULL, NULL, &p), AMBULO_OK);
   for (long k = 0; k < 400 && !done; k++) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);

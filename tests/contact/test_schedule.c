@@ -109,8 +109,6 @@ static void who_may_fly(void **state) {
                 "ground_reaction.minimum_force: nothing presses on the ground from 0.3 s to 0.45 "
                 "s, where the body is in flight (got 0.2 body weights); expected none"},
                {AMBULO_REACTION_SHARED, AMBULO_SUPPORT_BOX, -1.0,
-                "no foot touches the ground from 0.3 s to 0.45 s"},
-               {AMBULO_REACTION_TWO_STEP, AMBULO_SUPPORT_OFF, -1.0,
                 "no foot touches the ground from 0.3 s to 0.45 s"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     row_fixture f;

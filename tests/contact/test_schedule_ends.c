@@ -128,7 +128,7 @@ static void only_where_places_are_rows(void **state) {
     f.definition.foot_strike = use == 1;
     f.definition.contact_tolerance = use == 2 ? 0.002 : 0.0;
     f.definition.support = use == 3 ? AMBULO_SUPPORT_BOX : AMBULO_SUPPORT_OFF;
-    if (use == 4) f.definition.ground_reaction.kind = AMBULO_REACTION_TWO_STEP;
+    if (use == 4) f.definition.ground_reaction.kind = AMBULO_REACTION_SHARED;
     expect(&f, use ? "expected the same place" : NULL);
   }
 }

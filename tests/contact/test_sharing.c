@@ -22,7 +22,6 @@ static void prepare(row_fixture *f, int planar, const ambulo_contact *contacts, 
   f->definition.contact_count = count;
   f->definition.ground_reaction.kind = AMBULO_REACTION_SHARED;
   f->context.channels.feet = f->context.channels.slots = 2;
-  f->context.channels.slot_rows = 6;
   free(f->channel);
   f->channel =
       calloc((size_t)(ROW_NODES * ambulo__channel_count(&f->context.channels)), sizeof(double));

@@ -8,9 +8,9 @@
 
 static ambulo_problem *walk(const char *const *overrides, int count) {
   ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, count, NULL,
-                                       NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, count, NULL, NULL, &problem),
+      AMBULO_OK);
   return problem;
 }
 

@@ -8,10 +8,11 @@
   "gait: {steps: 2, first_foot: left, step_length: 0.6, step_time: 0.5}\n"
 
 static void expect_reaction(const ambulo_ground_reaction *r) {
-  assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
-  assert_int_equal(r->transfer, AMBULO_TRANSFER_SMOOTH);
-  assert_close(r->shear, 0.8, 1e-15);
-  assert_close(r->exponent, 1.2, 1e-15);
+  assert_int_equal(r->kind, AMBULO_REACTION_SHARED);
+  assert_close(r->moment_arm, 0.06, 1e-15);
+  assert_close(r->slant, 0.8, 1e-15);
+  assert_close(r->loading_rate, 12.0, 1e-15);
+  assert_close(r->flight_tolerance, 0.03, 1e-15);
   assert_close(r->friction, 0.4, 1e-15);
   assert_true(isnan(r->free_moment));
   assert_close(r->heel_pressure[0], -0.01, 1e-15);
@@ -44,8 +45,9 @@ static void everything_is_read(void **state) {
   ambulo_problem *p = problem_of(
       HEAD REST
       "angles: degrees\n"
-      "ground_reaction: {kind: two_step, shear: 0.8, transfer: smooth, exponent: 1.2, "
-      "friction: 0.4, free_moment: off, minimum_force: 0.1, pressure: {heel: [-0.01, "
+      "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.8, loading_rate: 12, "
+      "flight_tolerance: 0.03, friction: 0.4, free_moment: off, minimum_force: 0.1, pressure: "
+      "{heel: [-0.01, "
       "0.02], roll: 0.05, flat: [0.01, 0.03], toe: [-0.03, 0.04], width: 0.03}}\n"
       "constraints: {contact_tolerance: 0.003, orientation_tolerance: 0.02, strike_pitch: "
       "[10, 20], clearance: {height: 0.01, tip_from: 0.4, ceiling: 0.3, turn: 0.1, "
@@ -59,9 +61,9 @@ static void defaults(void **state) {
   (void)state;
   ambulo_problem *p = problem_of(HEAD REST "ground_reaction: {pressure: off}\n");
   const ambulo_ground_reaction *r = ambulo_problem_ground_reaction(p);
-  assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
+  assert_int_equal(r->kind, AMBULO_REACTION_SHARED);
   assert_int_equal(r->pressure, 0);
-  assert_close(p->definition.minimum_force, 0.2, 0.0);
+  assert_true(!(p->definition.minimum_force >= 0.0));
   assert_true(isnan(p->definition.clearance.height));
   assert_true(isnan(p->definition.clearance.feet));
   assert_close(p->definition.contact_tolerance, 0.0, 0.0);
@@ -106,7 +108,7 @@ static void code_and_file_give_one_problem(void **state) {
   ambulo_problem *from_file =
       problem_of(HEAD REST "angles: radians\nground: {slope: 0.09}\n"
                            "load: {link: pelvis, mass: 20, position: [-0.2, 0.3, 0.01]}\n"
-                           "ground_reaction: {kind: two_step}\n");
+                           "ground_reaction: {kind: shared}\n");
   ambulo_model *plain = NULL, *adapted = NULL;
   assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &plain), 0);
   ambulo_conditions conditions = ambulo_conditions_default();
@@ -141,7 +143,8 @@ static void faults_are_placed(void **state) {
   expect_refusal(HEAD REST "load: {link: pelvs, mass: 20, position: [0, 0, 0]}\n", AMBULO_E_PROBLEM,
                  "unknown link (got 'pelvs'); expected a link of the model\n"
                  "  hint: did you mean 'pelvis'?");
-  expect_refusal(HEAD REST "ground_reaction: {kind: twostep}\n", AMBULO_E_SCHEMA, "two_step");
+  expect_refusal(HEAD REST "ground_reaction: {kind: twostep}\n", AMBULO_E_SCHEMA,
+                 "expected one of: none, shared");
   expect_refusal(HEAD REST "ground_reaction: {pressure: {toe: [0.1, 0]}}\n", AMBULO_E_PROBLEM,
                  "expected lower < upper");
   expect_refusal(HEAD REST "angles: degrees\nconstraints: {strike_pitch: [24, 12]}\n",
@@ -149,8 +152,20 @@ static void faults_are_placed(void **state) {
   expect_refusal(HEAD REST "constraints: {clearance: {tip_from: 0.3}}\n", AMBULO_E_SCHEMA,
                  "'height'");
   expect_refusal(PENDULUM "objective: none\ntime: {duration: 1, intervals: 4}\n"
-                          "ground_reaction: {kind: two_step}\n",
-                 AMBULO_E_PROBLEM, "has 0 feet; expected 2");
+                          "ground_reaction: {kind: shared}\n",
+                 AMBULO_E_PROBLEM, "with 0 links");
+}
+
+/* the law of earlier versions: one line, at its place, with what to write instead */
+static void a_prescribed_split_is_refused(void **state) {
+  (void)state;
+  expect_refusal(
+      HEAD REST "ground_reaction: {kind: two_step, transfer: early, exponent: 1.4, "
+                "shear: 1}\n",
+      AMBULO_E_SCHEMA,
+      "p.yaml:7:25: error[E_SCHEMA]: the prescribed split of the load is no longer a law "
+      "(got 'two_step'); expected shared or none\n"
+      "  hint: write 'kind: shared', and leave out transfer, exponent and shear");
 }
 
 int main(void) {
@@ -159,6 +174,7 @@ int main(void) {
                                      cmocka_unit_test(slopes_turn_gravity),
                                      cmocka_unit_test(loads_are_carried),
                                      cmocka_unit_test(code_and_file_give_one_problem),
+                                     cmocka_unit_test(a_prescribed_split_is_refused),
                                      cmocka_unit_test(faults_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,7 +43,6 @@
   "free_moment: 0.03, pressure: {heel: [-0.03, 0.04], roll: 0.03, flat: [-0.01, 0.03], toe: "      \
   "[-0.03, 0.06], width: 0.04}}\n" CONSTRAINTS("")
 #define SHARED OF_REACTION "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.3, " PRESSURE
-#define TWO_STEP OF_REACTION "ground_reaction: {kind: two_step, shear: 0.8, " PRESSURE
 /* of a robot: torques carry the pelvis, rows keep the zero-moment point */
 #define ZERO_MOMENT                                                                                \
   "  - {term: torque_absolute, name: pelvis, scale: {default: 0, pelvis_ty: 0.1}}\n" CONSTRAINTS(  \
@@ -132,7 +131,6 @@ static void every_number_is_in_units_of_the_body(void **state) {
                          {120.0, 2.1, 1.2, 1.6}};
   for (int i = 0; i < 4; i++) {
     compare(&bodies[i], SHARED);
-    compare(&bodies[i], TWO_STEP);
     compare(&bodies[i], ZERO_MOMENT);
   }
 }

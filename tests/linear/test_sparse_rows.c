@@ -39,8 +39,8 @@ static void check_gradients(const char *name, const char *override, double size)
 static void gradients_are_the_dense_ones(void **state) {
   (void)state;
   check_gradients("yardstick_12", NULL, 0.2);
-  check_gradients("two_step/walk_normal", NULL, 0.01);
-  check_gradients("two_step/walk_normal", "constraints.torque_limits=true", 0.01);
+  check_gradients("support/walk_rigid", NULL, 0.01);
+  check_gradients("support/walk_rigid", "constraints.torque_limits=true", 0.01);
   check_gradients("walk_carrying", "constraints.torque_limits=true", 0.01); /* by both hands */
   check_gradients("walk_exotendon", "constraints.torque_limits=true", 0.01);
 }

@@ -129,7 +129,7 @@ static inline void contact_case_open(contact_case *c, int number) {
                    AMBULO_OK);
   b->d = ambulo__plan_coordinates(b->plan);
   b->rows = ambulo__plan_rows(b->plan);
-  c->first_row = ambulo__plan_first_foot_row(b->plan);
+  c->first_row = ambulo__plan_first_contact_row(b->plan);
   assert_in_range(b->rows, 1, contact_max_rows);
   assert_in_range(b->d, 1, max_d);
   size_t d = (size_t)b->d;

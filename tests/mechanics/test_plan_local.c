@@ -70,7 +70,9 @@ static ambulo__plan *make_plan(const int feet_on[2]) {
   if (feet_on) add_feet(&definition, feet_on, points, feet);
   assert_int_equal(ambulo_model_create(&definition, NULL, NULL, &model), AMBULO_OK);
   if (feet_on) {
-    assert_int_equal(ambulo__plan_create_grounded(model, -9, NULL, &plan), AMBULO_OK);
+    const int link[] = {points[0].link, points[1].link};
+    assert_int_equal(ambulo__plan_create_contacts(model, link, 2, 0.05, 0.3, NULL, &plan),
+                     AMBULO_OK);
   } else {
     assert_int_equal(ambulo__plan_create(model, NULL, &plan), AMBULO_OK);
   }

@@ -13,7 +13,7 @@ static void on_the_same_grid_nothing_changes(void **state) {
   engine_fixture f;
   ambulo__carried carried = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  engine_open(&f, "two_step/walk_normal");
+  engine_open(&f, "support/walk_rigid");
   ambulo__engine *e = f.engine;
   double *was = calloc((size_t)e->setup->inequalities, sizeof *was);
   for (int i = 0; i < e->setup->inequalities; i++)
@@ -39,8 +39,8 @@ static void densities_are_linear_between_nodes(void **state) {
   engine_fixture coarse, fine;
   ambulo__carried carried = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  engine_open_with(&coarse, "two_step/walk_normal", "time.intervals=24");
-  engine_open_with(&fine, "two_step/walk_normal", "time.intervals=48");
+  engine_open_with(&coarse, "support/walk_rigid", "time.intervals=24");
+  engine_open_with(&fine, "support/walk_rigid", "time.intervals=48");
   ambulo__engine *c = coarse.engine, *e = fine.engine;
   for (int i = 0; i < c->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(c, i);
@@ -107,8 +107,8 @@ static void holes_stay_empty(void **state) {
   engine_fixture coarse, fine;
   ambulo__carried carried = {0}, none = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  engine_open_with(&coarse, "two_step/walk_normal", "time.intervals=24");
-  engine_open_with(&fine, "two_step/walk_normal", "time.intervals=96");
+  engine_open_with(&coarse, "support/walk_rigid", "time.intervals=24");
+  engine_open_with(&fine, "support/walk_rigid", "time.intervals=96");
   ambulo__engine *c = coarse.engine, *e = fine.engine;
   double T = coarse.problem->definition.duration, interval = T / 24.0, worst = 0.0;
   for (int i = 0; i < c->setup->inequalities; i++) {

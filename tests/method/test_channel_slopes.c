@@ -20,7 +20,7 @@ static void expect(ambulo__channel_slopes *s, const ambulo_workspace *w, int nod
 
 static void kept_slopes_are_those_of_their_node(void **state) {
   (void)state;
-  static const char *const names[] = {"walk_normal", "yardstick_12", "two_step/walk_normal"};
+  static const char *const names[] = {"walk_normal", "yardstick_12", "support/walk_rigid"};
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
     ambulo_problem *p = load_problem(names[n]);
     ambulo_workspace *w = NULL;

@@ -38,8 +38,8 @@ static void steps_are_capped_by_what_moves(void **state) {
 static void the_start_does_not_move_the_scales(void **state) {
   (void)state;
   engine_fixture zero, rough;
-  engine_open(&zero, "two_step/walk_normal");
-  engine_open(&rough, "two_step/walk_normal");
+  engine_open(&zero, "support/walk_rigid");
+  engine_open(&rough, "support/walk_rigid");
   ambulo__engine_free(rough.engine);
   scatter(rough.x, rough.n, 0.5);
   assert_int_equal(

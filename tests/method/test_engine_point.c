@@ -23,7 +23,7 @@ static double worst_of(const engine_fixture *f, const ambulo__sparse_rows *rows,
 /* lengths, rates and torques, each beside its own size */
 static void errors_are_relative_to_sizes(void **state) {
   (void)state;
-  static const char *const names[] = {"two_link_reach", "walker_2d_step", "two_step/walk_normal"};
+  static const char *const names[] = {"two_link_reach", "walker_2d_step", "support/walk_rigid"};
   for (int i = 0; i < 3; i++) {
     for (int k = 0; k < 4; k++) {
       engine_fixture f;

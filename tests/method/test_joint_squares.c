@@ -163,8 +163,7 @@ static void squares_of_a_joint_are_joined(void **state) {
 /* to rounding: torques that several terms look at, rates beside them, feet in the air */
 static void the_metric_is_a_sum_of_squares(void **state) {
   (void)state;
-  static const char *const names[] = {"walk", "walk_normal", "two_step/walk_normal",
-                                      "yardstick_12"};
+  static const char *const names[] = {"walk", "walk_normal", "support/walk_rigid", "yardstick_12"};
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
     ambulo_problem *p = load_problem(names[n]);
     ambulo_workspace *w = NULL;

@@ -115,7 +115,7 @@ static void compare_shipped(const char *name) {
 /* and of walks: terms about feet and forces; nodes on knots, which fewer unknowns reach */
 static void curvature_of_a_walk_too(void **state) {
   (void)state;
-  compare_shipped("two_step/walk_normal");
+  compare_shipped("support/walk_rigid");
   compare_shipped("walk_normal"); /* rates of forces between nodes that stand close, or on knots */
   compare_shipped("walker_2d_step");
 }
@@ -186,12 +186,12 @@ static void scale_takes_the_unit_away(void **state) {
 /* angles and postures are not bent by accelerations as much as torques are */
 static void postures_do_not_move_the_scale(void **state) {
   (void)state;
-  double with = scale_with("two_step/walk_normal", NULL);
-  assert_close(scale_with("two_step/walk_normal", "objective[1].weight=0") / with, 1.0,
+  double with = scale_with("support/walk_rigid", NULL);
+  assert_close(scale_with("support/walk_rigid", "objective[1].weight=0") / with, 1.0,
                0.1); /* upright */
-  assert_close(scale_with("two_step/walk_normal", "objective[4].weight=0") / with, 1.0,
+  assert_close(scale_with("support/walk_rigid", "objective[4].weight=0") / with, 1.0,
                0.1); /* ankle */
-  assert_close(scale_with("two_step/walk_normal", "objective[5].weight=0") / with, 1.0,
+  assert_close(scale_with("support/walk_rigid", "objective[5].weight=0") / with, 1.0,
                0.1); /* pelvis */
 }
 

@@ -305,8 +305,8 @@ static void the_metric_has_the_active_rows(void **state) {
   (void)state;
   check_metric("yardstick_12", 10.0);
   check_metric("yardstick_12", 3000.0);
-  check_metric("two_step/walk_normal", 10.0);
-  check_metric("two_step/walk_normal", 3000.0);
+  check_metric("support/walk_rigid", 10.0);
+  check_metric("support/walk_rigid", 3000.0);
 }
 
 int main(void) {

@@ -72,7 +72,7 @@ static void tight_tolerances_are_met(void **state) {
       "solver.feasibility_tolerance=1e-13", "solver.feasibility_tolerance=1e-9"};
   for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++) {
     ambulo_problem *problem =
-        load_problem_with(i < 3 ? "yardstick_12" : "two_step/walk_normal", tolerances[i]);
+        load_problem_with(i < 3 ? "yardstick_12" : "support/walk_rigid", tolerances[i]);
     ambulo_result *result = NULL;
     assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
     if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
@@ -110,7 +110,7 @@ static void vanishing_objective_ends_the_solve(void **state) {
 /* the motionless body is far from any reference: near to it is not next to nothing */
 static void tracking_has_no_lower_bound_to_rest_on(void **state) {
   (void)state;
-  static const char *const names[] = {"two_step/walk_tracking", "two_step/walk_normal"};
+  static const char *const names[] = {"walk_tracking", "support/walk_rigid"};
   for (int i = 0; i < 2; i++) {
     engine_fixture f;
     engine_open(&f, names[i]);
@@ -223,7 +223,7 @@ static void heavy_loads_are_solved(void **state) {
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_loaded.yaml", overrides, 2, NULL, NULL, &problem),
+      ambulo_problem_load("models/walk_loaded.yaml", overrides, 2, NULL, NULL, &problem),
       AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);

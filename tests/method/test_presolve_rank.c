@@ -201,7 +201,7 @@ static void rows_without_a_node_are_not_regular(void **state) {
 static void rows_are_measured_by_their_sizes(void **state) {
   (void)state;
   engine_fixture f;
-  engine_open_with(&f, "two_step/walk_normal", "constraints.torque_limits=true");
+  engine_open_with(&f, "support/walk_rigid", "constraints.torque_limits=true");
   ambulo__rows_split *rows = &f.engine->linearized.rows;
   int other = 0;
   for (int i = 0; i < rows->inequality.count; i++) {

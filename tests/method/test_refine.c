@@ -48,8 +48,8 @@ static void grids_on_events_stop_where_phases_have_too_few(void **state) {
     const char *name, *override;
     int levels;
   } all[] = {{"yardstick_36", "time.grid=events", 0},
-             {"two_step/walk_normal", "time.grid=events", 1},
-             {"two_step/walk_normal", "trajectory={degree: 4, intervals: 6, knots: events}", 1}};
+             {"support/walk_rigid", "time.grid=events", 1},
+             {"support/walk_rigid", "trajectory={degree: 4, intervals: 6, knots: events}", 1}};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
     engine_fixture f;
     int levels = -1;

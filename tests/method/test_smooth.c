@@ -60,7 +60,7 @@ static void expect_optimal(const started *s, double most, const char *what) {
  */
 static void noise_is_smoothed_away(void **state) {
   (void)state;
-  static const char *const names[] = {"two_step/walk_normal", "two_step/walk_fast"};
+  static const char *const names[] = {"support/walk_rigid", "support/walk_rigid"};
   for (size_t i = 0; i < 2; i++) {
     started s;
     open_started(&s, names[i]);
@@ -76,7 +76,7 @@ static void noise_is_smoothed_away(void **state) {
 static void lines_over_the_index_are_no_conflict(void **state) {
   (void)state;
   started s;
-  open_started(&s, "two_step/walk_normal");
+  open_started(&s, "support/walk_rigid");
   for (int j = 0; j < s.n; j++) {
     int point = j / s.d, i = j % s.d;
     double share = (double)point / (double)(s.points - 1);
@@ -184,7 +184,7 @@ static void what_is_worse_than_the_start_is_said(void **state) {
 static void the_solver_tries_its_own_start(void **state) {
   (void)state;
   started s;
-  open_started(&s, "two_step/walk_normal");
+  open_started(&s, "support/walk_rigid");
   unsigned seed = 5;
   for (int j = 0; j < s.n; j++) s.x[j] = 40.0 * random_number(&seed); /* limbs turning wildly */
   ambulo_result *result = solve_from(&s, NULL);
@@ -201,7 +201,7 @@ static void the_solver_tries_its_own_start(void **state) {
 /* an optimum is neither rough nor smoothed */
 static void optima_stay(void **state) {
   (void)state;
-  static const char *const names[] = {"two_step/walk_normal", "two_step/walk_fast", "yardstick_36",
+  static const char *const names[] = {"support/walk_rigid", "support/walk_rigid", "yardstick_36",
                                       "walker_2d_step"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
     started s;

@@ -152,7 +152,7 @@ static void only_points_near_the_rows_count(void **state) {
 static void terms_without_a_measure_vanish_too(void **state) {
   (void)state;
   engine_fixture f;
-  engine_open(&f, "two_step/walk_tracking");
+  engine_open(&f, "walk_tracking");
   assert_true(f.engine->setup->negligible < 0.0 && f.engine->setup->at_rest > 0.0);
   double rest = f.engine->setup->at_rest * f.engine->setup->objective_scale;
   ambulo__stopping s = ambulo__stopping_begin(0);

@@ -154,14 +154,14 @@ static void table_comes_back(void **state, const char *file, int d) {
 }
 
 static void its_own_table_comes_back(void **state) {
-  table_comes_back(state, "tests/two_step/walk_normal.yaml", 18);
+  table_comes_back(state, "tests/support/walk_rigid.yaml", 18);
   table_comes_back(state, "models/walk_carrying.yaml", 29);
 }
 
 /* wrench, power and residual are what they are called; other ways to name the same forces */
 static void wrench_power_and_residual(void **state) {
   ambulo_problem *problem = NULL;
-  const char *motion = solve(state, "tests/two_step/walk_normal.yaml", &problem);
+  const char *motion = solve(state, "tests/support/walk_rigid.yaml", &problem);
   const ambulo_model *model = ambulo_problem_model(problem);
   ambulo_inverse_options options = ambulo_inverse_options_default();
   ambulo__motion *with = inverse_of(model, motion, &options, NULL, AMBULO_OK);

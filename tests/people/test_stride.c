@@ -122,7 +122,7 @@ static void test_limits_hold_in_both_halves(void **state) {
     ambulo_problem *problem = NULL;
     ambulo_result *result = NULL;
     assert_int_equal(
-        ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 3, NULL, NULL, &problem),
+        ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 3, NULL, NULL, &problem),
         AMBULO_OK);
     ambulo_options options = ambulo_problem_options(problem);
     assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);

@@ -15,7 +15,7 @@ typedef struct fixture {
 static void fixture_open(fixture *f) {
   memset(f, 0, sizeof *f);
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", NULL, 0, NULL, NULL, &f->problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", NULL, 0, NULL, NULL, &f->problem),
       AMBULO_OK);
   int n = f->problem->variables, d = f->problem->coordinates;
   f->x = calloc((size_t)n, sizeof *f->x);

@@ -121,8 +121,6 @@ static void numbers_have_ranges(void **state) {
       {&c->outward, "clearance.outward", 1},
       {&c->inward, "clearance.inward", 1},
       {&c->feet, "clearance.feet", MAY_BE_OFF},
-      {&r->exponent, "ground_reaction.exponent", 0},
-      {&r->shear, "ground_reaction.shear", 0},
       {&r->friction, "ground_reaction.friction", MAY_BE_OFF},
       {&r->free_moment, "ground_reaction.free_moment", MAY_BE_OFF},
       {&r->loading_rate, "ground_reaction.loading_rate", MAY_BE_OFF},

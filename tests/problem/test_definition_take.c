@@ -65,8 +65,8 @@ static void make(walk *w) {
   d->ground_penetration = d->foot_strike = 1;
   d->clearance.height = 0.02;
   d->clearance.turn = 0.15;
-  d->ground_reaction.kind = AMBULO_REACTION_TWO_STEP;
-  d->ground_reaction.shear = 0.8;
+  d->ground_reaction.kind = AMBULO_REACTION_SHARED;
+  d->ground_reaction.slant = 0.8;
   d->collision.mode = AMBULO_COLLISION_OFF;
   d->terms = w->terms;
   d->term_count = 2;

@@ -1,5 +1,5 @@
-/* Ground reaction in a whole problem: models/walk_normal.yaml at a made-up point that moves gently,
- * so that the body presses on the ground. */
+/* Ground reaction in a whole problem: tests/support/walk_rigid.yaml at a made-up point that moves
+ * gently, so that the body presses on the ground. */
 #include "problem/nlp.h"
 #include "ambulo/tools/load.h"
 #include "support/test.h"
@@ -31,34 +31,31 @@ static void fixture_close(fixture *f) {
 static void feet_supply_the_root_wrench(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "tests/two_step/walk_normal.yaml");
+  fixture_open(&f, "tests/support/walk_rigid.yaml");
   size_t n = (size_t)f.nodes;
   double *tau = calloc(n * (size_t)f.d, sizeof(double)), *wrench = calloc(6 * n, sizeof(double));
   double *grf = calloc(6 * n, sizeof(double)), *cop = calloc(6 * n, sizeof(double));
-  double *twist = calloc(2 * n, sizeof(double));
+  double *moment = calloc(6 * n, sizeof(double));
   ambulo_motion motion = {.size = sizeof(ambulo_motion),
                           .tau = tau,
                           .wrench = wrench,
                           .grf = grf,
                           .cop = cop,
-                          .free_moment = twist};
+                          .grf_moment = moment};
   assert_int_equal(
       ambulo_problem_motion(f.problem, f.workspace, f.x, f.nodes, f.problem->times, &motion),
       AMBULO_OK);
   double weight = 75.0 * 9.81, worst = 0.0, largest = 0.0;
-  const double *up = ambulo_model_up(f.problem->model);
   for (int k = 0; k < f.nodes; k++) {
     for (int i = 0; i < 6; i++) worst = fmax(worst, fabs(tau[k * f.d + i]) / weight);
     double sum[6] = {0.0};
     for (int foot = 0; foot < 2; foot++) {
       const double *force = grf + 6 * k + 3 * foot, *place = cop + 6 * k + 3 * foot;
       double size = fabs(force[0]) + fabs(force[1]) + fabs(force[2]);
-      int loaded = ambulo_problem_load_share(f.problem, foot, f.problem->times[k]) > 0.0;
-      assert_int_equal(isnan(place[0]), !loaded);
-      if (!loaded) assert_true(size < 1e-9 * weight);
-      for (int i = 0; i < 3 && loaded; i++) {
-        int a = (i + 1) % 3, b = (i + 2) % 3;
-        sum[i] += place[a] * force[b] - place[b] * force[a] + twist[2 * k + foot] * up[i];
+      int down = ambulo_problem_contact_at(f.problem, foot, f.problem->times[k]) >= 0;
+      if (!down) assert_true(isnan(place[0]) && size == 0.0);
+      for (int i = 0; i < 3; i++) {
+        sum[i] += moment[6 * k + 3 * foot + i];
         sum[3 + i] += force[i];
       }
     }
@@ -74,41 +71,14 @@ static void feet_supply_the_root_wrench(void **state) {
   free(wrench);
   free(grf);
   free(cop);
-  free(twist);
-  fixture_close(&f);
-}
-
-/* the ends of the table: padding has a full share for foot 0 and no shear */
-static void shares_reach_the_kernels(void **state) {
-  (void)state;
-  fixture f;
-  fixture_open(&f, "tests/two_step/walk_normal.yaml");
-  const double *g = f.problem->ground;
-  int left = ambulo_model_find_foot(f.problem->model, "left");
-  double sign = left == 0 ? 1.0 : -1.0;
-  for (int k = 0; k < f.nodes; k++) {
-    const double *lane = g + ambulo__lane_index(k, AMBULO__GROUND_ENTRIES, 0);
-    double share = left == 0 ? lane[0] : 1.0 - lane[0], t = (double)k / 25.0;
-    double u = t < 0.24 ? t / 0.24 : 1.0;
-    double expected = k == 25 ? 1.0 : 1.0 - pow(1.0 - u, 1.4);
-    assert_close(share, expected, 1e-9);
-    assert_close(lane[4 * AMBULO__LANES], 1.0, 0.0);
-    if (k > 0 && k < 6) {
-      assert_close(sign * lane[AMBULO__LANES], 0.68 - 0.21, 2e-6);
-      assert_close(sign * lane[2 * AMBULO__LANES], 0.0, 1e-12);
-      assert_close(sign * lane[3 * AMBULO__LANES], -0.1, 1e-12); /* left is -z */
-    }
-  }
-  const double *padding = g + ambulo__lane_index(f.nodes, AMBULO__GROUND_ENTRIES, 0);
-  assert_close(padding[0], 1.0, 0.0);
-  assert_close(padding[4 * AMBULO__LANES], 0.0, 0.0);
+  free(moment);
   fixture_close(&f);
 }
 
 static void gradients_agree_with_differences(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "tests/two_step/walk_normal.yaml");
+  fixture_open(&f, "tests/support/walk_rigid.yaml");
   ambulo_derivative_error errors[32];
   int count = 0;
   assert_int_equal(
@@ -147,7 +117,6 @@ static void other_problems_have_no_forces_on_feet(void **state) {
                    AMBULO_OK);
   for (int i = 0; i < 6; i++) assert_true(isnan(grf[i]) && isnan(cop[i]) && isnan(moment[i]));
   assert_true(isnan(twist[0]) && isnan(twist[1]));
-  assert_close(ambulo_problem_load_share(f.problem, 0, 0.1), 0.0, 0.0);
   assert_int_equal(ambulo_problem_ground_reaction(f.problem)->kind, AMBULO_REACTION_NONE);
   fixture_close(&f);
 }
@@ -190,10 +159,10 @@ static void check_channel_gradients(const char *path) {
 }
 
 /* by central differences, of every channel: also of those whose rows are parts of others, with
- * ground reaction (foot 1, centre of mass) and without (torques of the root's sliders) */
+ * ground reaction (contacts, centre of mass) and without (torques of the root's sliders) */
 static void channel_gradients_agree_with_differences(void **state) {
   (void)state;
-  check_channel_gradients("tests/two_step/walk_normal.yaml");
+  check_channel_gradients("tests/support/walk_rigid.yaml");
   check_channel_gradients("models/yardstick_12.yaml");
 }
 
@@ -210,7 +179,7 @@ static void forces_at_the_end_are_held_unless_they_repeat(void **state) {
     int forces[4] = {0}, places = 0;
     const char *overrides[] = {orders[order], phases};
     assert_int_equal(
-        ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 2, NULL, NULL, &p),
+        ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 2, NULL, NULL, &p),
         AMBULO_OK);
     assert_int_equal(ambulo_problem_contact_at(p, 1, ambulo_problem_duration(p)), -1);
     assert_true(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p)) >= 0);
@@ -230,7 +199,6 @@ static void forces_at_the_end_are_held_unless_they_repeat(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(feet_supply_the_root_wrench),
-      cmocka_unit_test(shares_reach_the_kernels),
       cmocka_unit_test(gradients_agree_with_differences),
       cmocka_unit_test(channel_gradients_agree_with_differences),
       cmocka_unit_test(forces_at_the_end_are_held_unless_they_repeat),

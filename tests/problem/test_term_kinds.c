@@ -264,16 +264,13 @@ static void rate_open(rate_fixture *f, int slots) {
   const double *g = ambulo_model_gravity(f->model);
   f->weight = ambulo_model_mass(f->model) * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   for (int i = 0; i < RATE_CHANNELS * AMBULO__LANES; i++) f->lanes[i] = sin(1.7 * i);
-  f->context = (ambulo__term_context){.model = f->model,
-                                      .channels = {.coordinates = 2,
-                                                   .points = 2,
-                                                   .feet = slots ? 2 : 0,
-                                                   .slots = slots,
-                                                   .slot_rows = 6},
-                                      .channel_count = RATE_CHANNELS,
-                                      .lanes = f->lanes,
-                                      .nodes = FORM_NODES,
-                                      .times = rate_times};
+  f->context = (ambulo__term_context){
+      .model = f->model,
+      .channels = {.coordinates = 2, .points = 2, .feet = slots ? 2 : 0, .slots = slots},
+      .channel_count = RATE_CHANNELS,
+      .lanes = f->lanes,
+      .nodes = FORM_NODES,
+      .times = rate_times};
 }
 
 static double *rate_at(rate_fixture *f, int node, int slot, int axis) {

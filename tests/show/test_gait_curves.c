@@ -10,7 +10,7 @@ static void panels_of_ground_reaction(void **state) {
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", NULL, 0, NULL, NULL, &problem),
       AMBULO_OK);
   assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
   ambulo__text_buffer text;

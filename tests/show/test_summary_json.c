@@ -64,7 +64,7 @@ static void test_stride(void **state) {
   char *text = NULL;
   double sum = 0.0;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", NULL, 0, NULL, NULL, &problem),
       AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   assert_int_equal(ambulo_report_summary(problem, result, NULL, &text), AMBULO_OK);

@@ -6,7 +6,7 @@
 static void phases_of_a_walk_on_arcs(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {SHARED, ARCS, "ground={slope: 2}",
        "gait.phases={heel_strike: 0.015, foot_flat: 0.14, heel_off: 0.38, toe_off: 0.62}",
        "time.intervals=40", ON_EVENTS},
@@ -21,7 +21,7 @@ static void phases_of_a_walk_on_arcs(void **state) {
 static void phases_of_a_walk(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {SHARED, "objective=[{term: force_rate, weight: 0.02}, {term: ground_force, weight: 0.3}]",
        "time.intervals=36", ON_EVENTS, "load={link: pelvis, mass: 10, position: [-0.1, 0.3, 0]}"},
       {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "time.duration",
@@ -34,7 +34,7 @@ static void phases_of_a_walk(void **state) {
 static void phases_of_a_walk_that_strikes_late(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {SHARED, "ground_reaction.loading_rate=3", "subject.stature=1.6",
        "gait.phases={heel_strike: 0.015, foot_flat: 0.14, heel_off: 0.38, toe_off: 0.62}",
        "time.intervals=40", ON_EVENTS},
@@ -48,7 +48,7 @@ static void phases_of_a_walk_that_strikes_late(void **state) {
 static void phases_that_are_close(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {SHARED, "gait.phases={heel_strike: 0.0, foot_flat: 0.08, heel_off: 0.51, toe_off: 0.588}",
        "time.intervals=40", ON_EVENTS},
       {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "time.duration"}};
@@ -59,7 +59,7 @@ static void phases_that_are_close(void **state) {
 static void phases_of_a_limp(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_asymmetric.yaml",
+      "models/walk_asymmetric.yaml",
       {SHARED, "gait.phases={heel_strike: 0.01, foot_flat: 0.08, heel_off: 0.38, toe_off: 0.62}",
        "objective[0].weight=2", "time.intervals=56", ON_EVENTS},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
@@ -75,7 +75,7 @@ static void phases_of_a_limp(void **state) {
 static void phases_of_a_walk_with_toes(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {SHARED, "objective[0].weight=2", BALL("r", "-0.042857"), BALL("l", "0.042857"),
        "gait.phases={heel_strike: 0.015, foot_flat: 0.08, heel_off: 0.38, toe_off: 0.62}",
        "time.intervals=40", ON_EVENTS},
@@ -100,7 +100,7 @@ static void phases_of_a_walk_with_toes(void **state) {
 static void backwards_with_toes(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {"gait=null", "ends=null", SHARED, BALL("r", "-0.042857"), BALL("l", "0.042857"),
        "constraints.strike_pitch=null", "time={duration: 1, intervals: 60, grid: events}",
        "trajectory.knots=events", "trajectory.degree=4", BACKWARDS},
@@ -115,7 +115,7 @@ static void backwards_with_toes(void **state) {
 static void times_of_contacts(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {"gait=null", "ends=null", SHARED, "time={duration: 1, intervals: 50, grid: events}",
        "contacts=[{foot: right, mode: flat, from: 0, to: 1, place: [0, -0.05]}, "
        "{foot: left, mode: heel, from: 0.21, to: 0.33, place: [0.102, 0.05]}, "

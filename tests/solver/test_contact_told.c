@@ -6,7 +6,7 @@
 static void a_walk(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {SHARED, "objective=[{term: force_rate, weight: 0.02}, {term: ground_force, weight: 0.3}]",
        "load={link: pelvis, mass: 10, position: [-0.1, 0.3, 0]}"},
       {"ground_reaction.moment_arm", "ground_reaction.slant", "ground_reaction.loading_rate",
@@ -20,7 +20,7 @@ static void a_walk(void **state) {
 
 static void a_walk_under_load_uphill(void **state) {
   (void)state;
-  static const setting c = {"tests/two_step/walk_loaded.yaml",
+  static const setting c = {"models/walk_loaded.yaml",
                             {SHARED, "ground={slope: 3}", "time.duration=null", "gait.speed=1.26"},
                             {"load.mass", "subject.mass", "ground.slope", "gait.speed",
                              "gait.step_length", "gait.step_width", "ground_reaction.moment_arm",
@@ -35,7 +35,7 @@ static void a_walk_under_load_uphill(void **state) {
 static void a_squat(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {"gait=null", SHARED, "time.duration=1.2", "ends={kind: periodic, order: 2}",
        "load={link: pelvis, mass: 10, position: [0.2, 0.3, 0.1]}", "ground={slope: 2}",
        "contacts=[{foot: left, mode: flat, from: 0, to: 1.2, place: [0, 0.09]}, "

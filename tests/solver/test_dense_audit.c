@@ -24,7 +24,7 @@ static int warnings(const ambulo_diagnostics *diagnostics, const char *text) {
 /* the toe of the foot that leaves slips before toe-off, 0.1296 s */
 static void a_walk_is_optimal_at_the_nodes_only(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo_result *r = solve(p, diagnostics);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
@@ -83,7 +83,7 @@ static void a_motion_that_holds_says_nothing(void **state) {
 /* nothing is advised about a point that is no solution at the nodes either */
 static void a_point_that_is_no_solution_is_only_measured(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_options options = ambulo_problem_options(p);
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   double *zero = calloc((size_t)p->variables, sizeof *zero);
@@ -128,7 +128,7 @@ static ambulo_result *result_of(const ambulo_problem *p, double value) {
 
 static void a_motion_that_overflows_is_named(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_result *r = result_of(p, 1e200);
   assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
   assert_int_equal(ambulo__dense_advise(p, 1, NULL, NULL, r), AMBULO_OK);
@@ -147,7 +147,7 @@ static void a_motion_that_overflows_is_named(void **state) {
 /* a height that no force can follow: places are numbers, the force is not, and comes first */
 static void what_is_not_finite_comes_first(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_result *r = result_of(p, 0.0);
   int height = ambulo_model_find_coordinate(p->model, "pelvis_ty");
   r->x[8 * p->coordinates + height] = 1e304;
@@ -169,7 +169,7 @@ static void what_is_not_finite_comes_first(void **state) {
 /* what holds at the nodes is advised about, the best motion or not */
 static void a_feasible_motion_is_told_too(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_result *r = result_of(p, 0.0);
   r->verdict = AMBULO_FEASIBLE;
   assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
@@ -182,7 +182,7 @@ static void a_feasible_motion_is_told_too(void **state) {
 
 static void without_time_nothing_is_foretold(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_result *r = result_of(p, 0.0);
   assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
   assert_int_equal(ambulo__dense_advise(p, 0, NULL, NULL, r), AMBULO_OK);

@@ -76,7 +76,7 @@ static int check_all(const char *name) {
 
 static void more_time_intervals_cure_a_walk(void **state) {
   (void)state;
-  assert_int_equal(check_all("two_step/walk_slow"), 6);
+  assert_int_equal(check_all("support/walk_rigid"), 6);
 }
 
 static void joint_limits_of_an_arm_too(void **state) {
@@ -119,7 +119,7 @@ static void no_failure_is_left_without_a_word(void **state) {
  * on a node, and the interval before it is free; the number named has a node just before it */
 static void the_number_named_has_nodes_where_they_count(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_result *r = NULL;
   assert_int_equal(ambulo_solve(p, NULL, NULL, NULL, NULL, &r), AMBULO_OK);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
@@ -362,7 +362,7 @@ static void given_breakpoints_are_left_alone(void **state) {
 static void grids_keep_their_proportion_where_contacts_are_equations(void **state) {
   (void)state;
   ambulo_problem *exact = load_problem("walk_without_reaction"),
-                 *tube = load_problem("two_step/walk_slow");
+                 *tube = load_problem("support/walk_rigid");
   assert_true(ambulo__dense_is_strict(exact) && !ambulo__dense_is_strict(tube));
   assert_int_equal(ambulo__dense_spline_intervals(exact, 48), 36);
   assert_int_equal(ambulo__dense_spline_intervals(exact, 25), 19);

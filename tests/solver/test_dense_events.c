@@ -55,8 +55,7 @@ static void events_that_are_nodes_leave_no_gap(void **state) {
   static const char *const settings[] = {"time.grid=events"};
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 1, NULL, NULL, &p),
-      AMBULO_OK);
+      ambulo_problem_load("tests/support/walk_rigid.yaml", settings, 1, NULL, NULL, &p), AMBULO_OK);
   double time[2] = {p->times[6], 0.5 * (p->times[9] + p->times[10])};
   ambulo__events events = {2, time};
   assert_false(ambulo__dense_beside_event(p, &events, p->times[6]));

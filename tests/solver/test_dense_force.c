@@ -100,7 +100,7 @@ static void compare_feet(const ambulo_problem *p) {
 
 static void each_foot_has_its_own(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_normal");
+  ambulo_problem *p = load_problem("support/walk_rigid");
   compare_feet(p);
   ambulo_problem_free(p);
 }

@@ -22,7 +22,7 @@ static void a_grid_is_as_fine_as_a_problem_may_be(void **state) {
  * asked on a grid that is not theirs */
 static void callbacks_are_not_asked_off_their_nodes(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_step/walk_tracking");
+  ambulo_problem *p = load_problem("walk_tracking");
   ambulo__dense dense;
   double *x = calloc((size_t)p->variables, sizeof *x);
   ambulo_user_row row = {.name = "own", .unit = "m", .relation = AMBULO_EQUAL, .to = 1.0};
@@ -79,8 +79,7 @@ static void grids_on_events_are_divided(void **state) {
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events"};
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 2, NULL, NULL, &p),
-      AMBULO_OK);
+      ambulo_problem_load("tests/support/walk_rigid.yaml", settings, 2, NULL, NULL, &p), AMBULO_OK);
   double *x = calloc((size_t)p->variables, sizeof *x);
   for (int shifted = 0; shifted < 2; shifted++) {
     ambulo__dense dense;

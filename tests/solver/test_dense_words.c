@@ -64,8 +64,8 @@ static void settings_that_stay_are_not_named(void **state) {
     const char *name, *override, *settings;
     int spline;
   } cases[] = {
-      {"two_step/walk_slow", NULL, "--set time.intervals=50", 17},
-      {"two_step/walk_slow", NULL, "--set time.intervals=50 --set trajectory.intervals=34", 34},
+      {"support/walk_rigid", NULL, "--set time.intervals=50", 17},
+      {"support/walk_rigid", NULL, "--set time.intervals=50 --set trajectory.intervals=34", 34},
       {"walk_without_reaction", NULL, "--set time.intervals=50 --set trajectory.intervals=38", 38},
       {"walk_without_reaction", "trajectory={basis: bspline}", "--set time.intervals=50", 50},
   };
@@ -115,7 +115,7 @@ static void forces_between_exact_contacts_take_a_tolerance(void **state) {
   assert_string_equal(t->report.family[0].settings,
                       "--set constraints.contact_tolerance=0.002 --set time.intervals=120");
   close_told(t);
-  t = open_told("two_step/walk_slow", NULL);
+  t = open_told("support/walk_rigid", NULL);
   add(t, AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 2.0);
   tell(t, &t->cure);
   assert_string_equal(t->report.family[0].settings, "");
@@ -143,7 +143,7 @@ static void too_far_off_is_no_cannot(void **state) {
 
 static void what_is_not_finite_has_no_number(void **state) {
   (void)state;
-  told *t = open_told("two_step/walk_slow", NULL);
+  told *t = open_told("support/walk_rigid", NULL);
   t->cure.intervals = 50;
   t->cure.cured[add(t, AMBULO__KIND_SLIP, AMBULO__METRES, (double)NAN)] = 1;
   tell(t, &t->cure);
@@ -157,7 +157,7 @@ static void what_is_not_finite_has_no_number(void **state) {
 /* families that hold are passed over, wherever they stand; each that fails has a line */
 static void only_what_fails_is_told(void **state) {
   (void)state;
-  told *t = open_told("two_step/walk_slow", NULL);
+  told *t = open_told("support/walk_rigid", NULL);
   t->cure.intervals = 50;
   t->cure.spline_intervals = 17;
   t->cure.cured[add(t, AMBULO__KIND_SLIP, AMBULO__METRES, 4.0)] = 1;
@@ -179,7 +179,7 @@ static void only_what_fails_is_told(void **state) {
  * twice; and a cure has one place in the sentence */
 static void the_sentence_groups_by_cure(void **state) {
   (void)state;
-  told *t = open_told("two_step/walk_slow", NULL);
+  told *t = open_told("support/walk_rigid", NULL);
   t->cure.intervals = 50;
   t->cure.spline_intervals = 17;
   t->cure.cured[add(t, AMBULO__KIND_CONTACT, AMBULO__METRES, 4.0)] = 1;
@@ -203,7 +203,7 @@ static void the_sentence_groups_by_cure(void **state) {
 /* nothing is said about a motion that holds; a second telling does not add to the first */
 static void a_motion_that_holds_says_nothing(void **state) {
   (void)state;
-  told *t = open_told("two_step/walk_slow", NULL);
+  told *t = open_told("support/walk_rigid", NULL);
   add(t, AMBULO__KIND_SLIP, AMBULO__METRES, 4.0);
   tell(t, NULL);
   has(t->report.summary, "slip: no time was left");

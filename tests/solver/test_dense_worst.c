@@ -34,7 +34,7 @@ static void close_all(poison *f) {
 /* one row of each family in turn, in the middle of the motion */
 static void a_row_that_is_not_finite_is_named(void **state) {
   (void)state;
-  static const char *const names[] = {"two_step/walk_normal", "walk_without_reaction"};
+  static const char *const names[] = {"support/walk_rigid", "walk_without_reaction"};
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   int tried = 0;
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
@@ -82,7 +82,7 @@ static void a_force_or_place_that_is_not_finite_is_named(void **state) {
   static const int nodes[] = {123, 120};
   static const double bad[] = {NAN, INFINITY};
   poison f;
-  open_with(&f, "two_step/walk_normal");
+  open_with(&f, "support/walk_rigid");
   const ambulo_model *model = f.problem->model;
   int up = fabs(model->up[1]) > 0.5 ? 1 : 2, ahead = fabs(model->forward[0]) > 0.5 ? 0 : 1;
   int left = strcmp(model->feet[0].name, "left") == 0 ? 0 : 1; /* it stands at 0.26 s */
@@ -111,7 +111,7 @@ static void a_force_or_place_that_is_not_finite_is_named(void **state) {
 static void units_are_not_mixed(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "two_step/walk_normal");
+  open_with(&f, "support/walk_rigid");
   int contacts = 0;
   for (int rule = 0; rule < AMBULO__DENSE_RULES; rule++) {
     const ambulo__dense_entry *entry = &f.clean.entry[rule];
@@ -131,7 +131,7 @@ static void units_are_not_mixed(void **state) {
 static void the_first_that_is_not_finite_stays(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "two_step/walk_normal");
+  open_with(&f, "support/walk_rigid");
   const ambulo_problem *fine = f.dense.fine;
   double first = -1.0;
   int poisoned = 0, rule = -1;
@@ -154,7 +154,7 @@ static void the_first_that_is_not_finite_stays(void **state) {
 static void what_lies_beside_an_event_is_kept_apart(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "two_step/walk_normal");
+  open_with(&f, "support/walk_rigid");
   const ambulo_problem *fine = f.dense.fine;
   const ambulo_problem_definition *d = &f.problem->definition;
   int beside = 0, apart = 0, rule = -1;
@@ -208,29 +208,6 @@ static void limits_count_by_their_size(void **state) {
   close_all(&f);
 }
 
-/* a row of a foot's centre of pressure counts by the load on that foot, by hand at one row */
-static void centres_of_pressure_count_by_the_load(void **state) {
-  (void)state;
-  poison f;
-  open_with(&f, "two_step/walk_normal");
-  const ambulo_problem *fine = f.dense.fine;
-  for (int r = 0; r < fine->rows; r++) f.dense.row_value[r] = 1.0;
-  for (int r = 0; r < fine->rows; r++) {
-    const ambulo__table_row *row = &fine->table.rows[r];
-    if (strcmp(row->family, "pressure") != 0 || row->time < 0.05 || row->node % 10 == 0) continue;
-    int foot = strcmp(row->subject, fine->model->feet[0].name) == 0 ? 0 : 1;
-    double share = ambulo_problem_load_share(f.problem, foot, row->time);
-    assert_true(share > 0.0 && share < 1.0);
-    f.dense.row_value[r] = -0.01;
-    ambulo__dense_worst_of(&f.dense, &f.events, &f.worst);
-    const ambulo__dense_sample *worst = &f.worst.entry[ambulo__dense_rule_of_row(row)].sample;
-    assert_close(worst->value, 0.01 * share, 1e-12);
-    assert_close(worst->time, row->time, 0.0);
-    break;
-  }
-  close_all(&f);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_row_that_is_not_finite_is_named),
@@ -239,7 +216,6 @@ int main(void) {
       cmocka_unit_test(the_first_that_is_not_finite_stays),
       cmocka_unit_test(what_lies_beside_an_event_is_kept_apart),
       cmocka_unit_test(limits_count_by_their_size),
-      cmocka_unit_test(centres_of_pressure_count_by_the_load),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

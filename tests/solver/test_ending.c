@@ -112,7 +112,7 @@ static void torques_are_judged_by_their_size(void **state) {
     const char *overrides[] = {loads[i], "constraints.torque_limits=true"};
     ambulo_problem *problem = NULL;
     assert_int_equal(
-        ambulo_problem_load("tests/two_step/walk_loaded.yaml", overrides, 2, NULL, NULL, &problem),
+        ambulo_problem_load("models/walk_loaded.yaml", overrides, 2, NULL, NULL, &problem),
         AMBULO_OK);
     ambulo_result *r = solve(problem, NULL);
     const ambulo_violation *v = &ambulo_result_audit(r)->violation;

@@ -58,14 +58,14 @@ static void expect_rates(const char *file, const char *phase, double value) {
 /* with tips that have to clear from a part of the swing on, which both its ends move */
 static void nodes_and_knots_go_along(void **state) {
   (void)state;
-  expect_rates("tests/two_step/walk_normal.yaml", "foot_flat", 0.08);
-  expect_rates("tests/two_step/walk_normal.yaml", "heel_off", 0.38);
-  expect_rates("tests/two_step/walk_normal.yaml", "toe_off", 0.62);
+  expect_rates("tests/support/walk_rigid.yaml", "foot_flat", 0.08);
+  expect_rates("tests/support/walk_rigid.yaml", "heel_off", 0.38);
+  expect_rates("tests/support/walk_rigid.yaml", "toe_off", 0.62);
   /* 1 ms after foot-flat, which alone has a knot */
-  expect_rates("tests/two_step/walk_normal.yaml", "toe_off", 0.581);
-  expect_rates("tests/two_step/walk_normal.yaml", "foot_flat", 0.119);
-  expect_rates("tests/two_step/walk_normal.yaml", "heel_strike", -0.02);
-  expect_rates("tests/two_step/walk_asymmetric.yaml", "heel_strike", 0.02);
+  expect_rates("tests/support/walk_rigid.yaml", "toe_off", 0.581);
+  expect_rates("tests/support/walk_rigid.yaml", "foot_flat", 0.119);
+  expect_rates("tests/support/walk_rigid.yaml", "heel_strike", -0.02);
+  expect_rates("models/walk_asymmetric.yaml", "heel_strike", 0.02);
   expect_rates("models/walker_2d_step.yaml", "toe_off", 0.56);
 }
 
@@ -78,7 +78,7 @@ static void two_at_one_time_are_unclear(void **state) {
   double from = (0.38 - 0.12) / (0.5 - 0.12); /* of the swing */
   (void)snprintf(text, sizeof text, "constraints.clearance.tip_from=%.17g", from);
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 2, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 2, NULL, NULL, &problem),
       AMBULO_OK);
   ambulo__event_map map;
   ambulo__pool pool;
@@ -94,7 +94,7 @@ static void two_at_one_time_are_unclear(void **state) {
 
 static void every_allocation_may_fail(void **state) {
   (void)state;
-  ambulo_problem *p = walk_with("tests/two_step/walk_normal.yaml", "toe_off", 0.62);
+  ambulo_problem *p = walk_with("tests/support/walk_rigid.yaml", "toe_off", 0.62);
   for (long k = 0; k < 100; k++) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);

@@ -34,9 +34,9 @@ static void phases_by_speed(void **state) {
 static void phases_by_speed_between_nodes(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_fast.yaml", {"gait.phases=by_speed"}, {"gait.step_width"}};
+      "tests/support/walk_rigid.yaml", {"gait.phases=by_speed"}, {"gait.step_width"}};
   expect_absent(&c, (const char *const[]){"gait.speed", NULL});
-  static const setting fixed = {"tests/two_step/walk_fast.yaml", {NULL}, {"gait.speed"}};
+  static const setting fixed = {"tests/support/walk_rigid.yaml", {NULL}, {"gait.speed"}};
   check(&fixed, NULL);
 }
 
@@ -52,7 +52,7 @@ static void keys_that_change_the_speed(void **state) {
                        length = {"models/walk_normal.yaml",
                                  {"time.duration=null", "gait.speed=1.26", SLOPED},
                                  {"gait.step_length", "gait.speed"}},
-                       limp = {"tests/two_step/walk_asymmetric.yaml",
+                       limp = {"models/walk_asymmetric.yaml",
                                {SLOPED, "ground_reaction.transfer=linear", "objective[0].weight=2",
                                 ON_EVENTS},
                                {"gait.step_length[0]", "gait.step_length[1]",
@@ -65,10 +65,10 @@ static void keys_that_change_the_speed(void **state) {
 /* where phases have no derivative, neither has what changes the speed; a cadence does not */
 static void keys_that_change_the_speed_between_nodes(void **state) {
   (void)state;
-  static const setting cadence = {"tests/two_step/walk_fast.yaml",
+  static const setting cadence = {"tests/support/walk_rigid.yaml",
                                   {"gait.step_time=0.48", "gait.phases=by_speed"},
                                   {"gait.step_time"}},
-                       both = {"tests/two_step/walk_fast.yaml",
+                       both = {"tests/support/walk_rigid.yaml",
                                {"gait.speed=null", "gait.step_time=0.48", "gait.step_length=0.77",
                                 "gait.phases=by_speed"},
                                {NULL}},
@@ -185,7 +185,7 @@ static void contacts_one_by_one_on_events(void **state) {
 static void a_walk_under_load_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
        "roll: 0.04, width: 0.035}",
        "ground={slope: 3}", "ground_reaction.shear=0.8", ON_EVENTS},
@@ -200,7 +200,7 @@ static void a_walk_under_load_on_events(void **state) {
 static void a_walk_with_other_terms_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {"objective=[{term: clearance, height: 0.06, weight: 3}, "
        "{term: torque_rate, weight: 0.0001}, {term: mechanical_power, weight: 0.01}, "
        "{term: mechanical_power, name: muscles, weight: 0.02, tendon: {ankle_angle_r: 300, "
@@ -220,7 +220,7 @@ static void a_walk_with_other_terms_on_events(void **state) {
 static void a_walk_early_on_its_heel(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {"gait.phases={heel_strike: -0.03, foot_flat: 0.05, heel_off: 0.36, toe_off: 0.6}",
        "ground_reaction.transfer=smooth", "constraints.clearance.height=0.03", "time.grid=events",
        "objective=[{term: clearance, height: 0.06, weight: 3}, {term: ground_force, weight: 0.3}, "
@@ -234,7 +234,7 @@ static void a_walk_early_on_its_heel(void **state) {
 static void a_limp_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_asymmetric.yaml",
+      "models/walk_asymmetric.yaml",
       {"gait.phases={heel_strike: 0.01, foot_flat: 0.08, heel_off: 0.38, toe_off: 0.62}",
        "ground_reaction.transfer=linear", "objective[0].weight=2", ON_EVENTS},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
@@ -245,16 +245,16 @@ static void a_limp_on_events(void **state) {
 /* what another event, an end or a knot coincides with has no derivative */
 static void times_that_coincide(void **state) {
   (void)state;
-  static const setting strike_at_0 = {"tests/two_step/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
+  static const setting strike_at_0 = {"models/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
                        heel_with_strike = {"models/walk_without_reaction.yaml",
                                            {"gait.phases.heel_off=0.44", ON_EVENTS},
                                            {"gait.phases.toe_off", "gait.phases.foot_flat"}},
                        uniform = {"models/walker_2d_step.yaml", {NULL}, {NULL}},
-                       on_a_knot = {"tests/two_step/walk_loaded.yaml",
+                       on_a_knot = {"models/walk_loaded.yaml",
                                     {"time.grid=events", "trajectory.intervals=25"},
                                     {"gait.step_length"}},
                        above_cubic = {
-                           "tests/two_step/walk_loaded.yaml",
+                           "models/walk_loaded.yaml",
                            {"time.grid=events", "trajectory.intervals=25", "trajectory.degree=5"},
                            {"gait.phases.toe_off"}};
   expect_absent(&strike_at_0, (const char *const[]){"gait.phases.heel_strike", NULL});

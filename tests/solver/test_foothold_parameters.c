@@ -71,7 +71,7 @@ static void a_stance_moves_as_one(void **state) {
   ambulo_problem *problem = NULL;
   ambulo_sensitivity_list *list = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 4, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 4, NULL, NULL, &problem),
       AMBULO_OK);
   ambulo_result *result = scattered(problem);
   assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);

@@ -19,7 +19,7 @@ static const char *const on_events[] = {"time.grid=events", "trajectory.knots=ev
 
 static void the_last_grid_holds_between_its_nodes(void **state) {
   (void)state;
-  ambulo_problem *problem = load("two_step/walk_slow", on_events, 3), *finer = NULL, *same = NULL;
+  ambulo_problem *problem = load("support/walk_rigid", on_events, 3), *finer = NULL, *same = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_solve_refined(problem, NULL, NULL, NULL, NULL, &finer, &result),
                    AMBULO_OK);
@@ -32,7 +32,7 @@ static void the_last_grid_holds_between_its_nodes(void **state) {
   (void)snprintf(nodes, sizeof nodes, "time.intervals=%d", finer->definition.intervals);
   (void)snprintf(knots, sizeof knots, "trajectory.intervals=%d",
                  ambulo__basis_intervals(finer->basis));
-  same = load("two_step/walk_slow", overrides, 4);
+  same = load("support/walk_rigid", overrides, 4);
   assert_true(ambulo_problem_hash(same) == ambulo_problem_hash(finer));
   assert_int_equal(finer->keys.gait, problem->keys.gait);
   ambulo_problem_free(same);
@@ -63,7 +63,7 @@ static int stop_after(void *user, const ambulo_progress *progress) {
 /* a stop in any of the solves: what was found by then is the result */
 static void a_stop_keeps_the_best(void **state) {
   (void)state;
-  ambulo_problem *problem = load("two_step/walk_slow", on_events, 3);
+  ambulo_problem *problem = load("support/walk_rigid", on_events, 3);
   for (int calls = 3; calls < 80; calls += 25) {
     ambulo_options options = ambulo_options_default();
     ambulo_problem *finer = NULL;

@@ -75,7 +75,7 @@ static void compare(const search *c, const char *freed, double lower, double upp
 
 static void a_cadence_at_a_speed(void **state) {
   (void)state;
-  static const search c = {"tests/two_step/walk_normal.yaml", "gait.step_time", {AT_A_SPEED}, 4};
+  static const search c = {"tests/support/walk_rigid.yaml", "gait.step_time", {AT_A_SPEED}, 4};
   compare(&c, "free={gait.step_time: [0.3, 0.8]}", 0.35, 0.5, 1.26);
 }
 
@@ -110,8 +110,8 @@ static void several_at_once(void **state) {
   static const char *const three[] = {
       AT_A_SPEED, ("free={gait.step_time: [0.3, 0.8], gait.step_width: [0.05, 0.2], ground.slope: "
                    "[-8, 5]}")};
-  solved a = solve("tests/two_step/walk_normal.yaml", one, 5, NULL);
-  solved b = solve("tests/two_step/walk_normal.yaml", three, 5, NULL);
+  solved a = solve("tests/support/walk_rigid.yaml", one, 5, NULL);
+  solved b = solve("tests/support/walk_rigid.yaml", three, 5, NULL);
   assert_true(b.outcome->objective < 0.99 * a.outcome->objective);
   assert_true(b.outcome->converged);
   /* the wider the better, with this objective: the bound is named, and F would go on beyond it */

@@ -275,7 +275,7 @@ static int poison_row(ambulo_problem *problem, ambulo__kernels *own, int r) {
  * an audit of the solution without it would not be called optimal with it. */
 static void every_family(void **state) {
   (void)state;
-  static const char *const names[] = {"two_step/walk_normal", "yardstick_12", "two_link_reach"};
+  static const char *const names[] = {"support/walk_rigid", "yardstick_12", "two_link_reach"};
   int families = 0;
   for (size_t i = 0; i < COUNT(names); i++) {
     ambulo_problem *problem = load_problem(names[i]);

@@ -82,7 +82,7 @@ static void breakpoints_stay_in_seconds(void **state) {
 static void a_walk_under_load(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
        "roll: 0.04, width: 0.035}",
        "ground={slope: 3}", "constraints.torque_limits=true", "ground_reaction.shear=0.8",
@@ -98,7 +98,7 @@ static void a_walk_under_load(void **state) {
 static void a_walk_with_other_terms(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {"objective=[{term: clearance, height: 0.06, weight: 3}, {term: posture, name: rests, "
        "scale: {knee_angle_r: 1, knee_angle_l: 1, hip_adduction_r: 2, hip_adduction_l: 2}, "
        "angles: {knee_angle_r: 10, knee_angle_l: 10, hip_adduction_r: 3, hip_adduction_l: 3}}, "
@@ -125,7 +125,7 @@ static void a_walk_with_other_terms(void **state) {
 static void a_walk_on_shared_contacts(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {SHARED, "ground={slope: 3}", "constraints.torque_limits=true"},
       {"ground_reaction.moment_arm", "ground_reaction.slant", "ground_reaction.loading_rate",
        "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
@@ -136,7 +136,7 @@ static void a_walk_on_shared_contacts(void **state) {
 
 static void a_walk_on_shared_contacts_on_events(void **state) {
   (void)state;
-  static const setting c = {"tests/two_step/walk_loaded.yaml",
+  static const setting c = {"models/walk_loaded.yaml",
                             {SHARED, "time.intervals=40", "time.duration=null", "gait.speed=1.26",
                              "ground_reaction.minimum_force=0.1", ON_EVENTS},
                             {"ground_reaction.moment_arm", "ground_reaction.slant",
@@ -151,7 +151,7 @@ static void a_walk_on_shared_contacts_on_events(void **state) {
 static void a_walk_on_shared_arcs(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_loaded.yaml",
+      "models/walk_loaded.yaml",
       {SHARED, "model.feet[right].arcs={heel: ankle_r, toe: ankle_r}",
        "model.feet[left].arcs={heel: ankle_l, toe: ankle_l}", "ground={slope: 3}"},
       {"ground_reaction.moment_arm", "ground_reaction.loading_rate", "gait.step_length",
@@ -187,7 +187,7 @@ static void a_run(void **state) {
 /* no step length: it follows from the speed, and the time from both */
 static void a_walk_at_a_speed(void **state) {
   (void)state;
-  static const setting c = {"tests/two_step/walk_normal.yaml",
+  static const setting c = {"tests/support/walk_rigid.yaml",
                             {"gait.step_length=null", "time.duration=null", "gait.speed=1.26"},
                             {"gait.speed", "gait.step_width", "subject.mass"}};
   check(&c, NULL);
@@ -197,18 +197,18 @@ static void a_walk_at_a_speed(void **state) {
 static void a_cadence_at_a_speed(void **state) {
   (void)state;
   static const setting by_step = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {"gait.step_length=null", "time.duration=null", "gait.speed=1.26", "gait.step_time=0.54"},
       {"gait.step_time", "gait.speed", "gait.step_width"}};
-  static const setting by_duration = {"tests/two_step/walk_normal.yaml",
+  static const setting by_duration = {"tests/support/walk_rigid.yaml",
                                       {"gait.step_length=null", "gait.speed=1.26"},
                                       {"time.duration", "gait.speed"}};
   static const setting unlike = {
-      "tests/two_step/walk_asymmetric.yaml",
+      "models/walk_asymmetric.yaml",
       {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=[0.5, 0.6]"},
       {"gait.speed"}};
   static const setting two_steps = {
-      "tests/two_step/walk_asymmetric.yaml",
+      "models/walk_asymmetric.yaml",
       {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.55"},
       {"gait.step_time", "gait.speed"}};
   check(&by_step, "time.duration");
@@ -220,7 +220,7 @@ static void a_cadence_at_a_speed(void **state) {
 static void a_walk_in_tubes(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_tracking.yaml",
+      "models/walk_tracking.yaml",
       {"constraints.tubes=[{reference: walk_tracking_angles.csv, coordinates: {hip_flexion_r: "
        "20}}, "
        "{reference: walk_tracking_angles.csv, coordinates: {knee_angle_r: 9}}]",
@@ -232,7 +232,7 @@ static void a_walk_in_tubes(void **state) {
 
 static void a_step_in_a_tube_on_both_sides(void **state) {
   (void)state;
-  static const setting c = {"tests/two_step/walk_tracking.yaml",
+  static const setting c = {"models/walk_tracking.yaml",
                             {"constraints.tubes=[{reference: walk_tracking_angles.csv, "
                              "coordinates: {knee_angle_r: 20, knee_angle_l: 20}}]"},
                             {"constraints.tubes[0].coordinates.knee_angle_r"}};

@@ -316,7 +316,7 @@ static void every_allocation_may_fail(void **state) {
   (void)state;
   expect_no_leak("models/yardstick_12.yaml", NULL);
   expect_no_leak(step, "time.grid=events");
-  expect_no_leak("tests/two_step/walk_normal.yaml", "ground_reaction={kind: shared}");
+  expect_no_leak("tests/support/walk_rigid.yaml", "ground_reaction={kind: shared}");
 }
 
 int main(void) {

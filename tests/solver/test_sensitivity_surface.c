@@ -16,7 +16,7 @@
 static void up_stairs(void **state) {
   (void)state;
   static const setting c = {
-      "tests/two_step/walk_normal.yaml",
+      "tests/support/walk_rigid.yaml",
       {"gait=null", "ends={kind: mirrored, order: 2, travel: 0.29, rise: 0.17}", SHARED,
        "time.duration=0.65", "time.intervals=40", "ground={slope: 2}", STAIRS},
       {"contacts[0].place[0]", "contacts[0].place[1]", "contacts[0].place[2]",
@@ -41,7 +41,7 @@ static double lagrangian_of(double travel, double rise, const ambulo_result *r) 
   (void)snprintf(behind, sizeof behind, "contacts[2].place[0]=%.17g", -travel);
   (void)snprintf(below, sizeof below, "contacts[2].place[2]=%.17g", 0.01 - rise);
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 8, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 8, NULL, NULL, &problem),
       AMBULO_OK);
   double value = lagrangian_at(problem, r->x, r->multiplier, r->rows);
   ambulo_problem_free(problem);
@@ -63,7 +63,7 @@ static void higher_and_longer_steps(void **state) {
   ambulo__pool pool;
   const double d = 1e-5;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 6, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 6, NULL, NULL, &problem),
       AMBULO_OK);
   ambulo_result *r = scattered(problem);
   ambulo__pool_init(&pool, NULL);
@@ -99,7 +99,7 @@ static void higher_and_longer_steps(void **state) {
 
 static void up_and_down_on_events(void **state) {
   (void)state;
-  static const setting c = {"tests/two_step/walk_normal.yaml",
+  static const setting c = {"tests/support/walk_rigid.yaml",
                             {"gait=null", "ends=null", SHARED, "time.duration=1",
                              "time.intervals=56", UP_AND_DOWN, "ground={slope: 2}",
                              "constraints.ground_penetration=true", ON_EVENTS},
@@ -113,7 +113,7 @@ static void up_and_down_on_events(void **state) {
 
 static void up_and_down_on_arcs(void **state) {
   (void)state;
-  static const setting c = {"tests/two_step/walk_normal.yaml",
+  static const setting c = {"tests/support/walk_rigid.yaml",
                             {"gait=null", "ends=null", SHARED, "time.duration=1",
                              "time.intervals=40", UP_AND_DOWN, "ground={slope: 2}", ARCS},
                             {"contacts[2].place[2]", "contacts[2].heading", "contacts[3].place[0]",

@@ -52,7 +52,7 @@ static double peak_of(const char *path, const char *override, double *problem_by
 
 static void predictions_hold(void **state) {
   (void)state;
-  static const char *const cases[][2] = {{"tests/two_step/walk_normal.yaml", NULL},
+  static const char *const cases[][2] = {{"tests/support/walk_rigid.yaml", NULL},
                                          {"models/walk_without_reaction.yaml", NULL},
                                          {"models/yardstick_12.yaml", NULL},
                                          {"models/yardstick_72.yaml", NULL},
@@ -139,7 +139,7 @@ static void what_the_machine_has_is_the_limit(void **state) {
 /* with and without Jacobians; small arrays are not counted */
 static void workspaces_are_predicted(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_step/walk_normal");
+  ambulo_problem *problem = load_problem("support/walk_rigid");
   for (int jacobians = 0; jacobians < 2; jacobians++) {
     counter c = {0.0, 0.0};
     ambulo_allocator allocator = {count, &c};

@@ -6,18 +6,87 @@
  *   A_k = w_k (1 - e e^T + e e^T / epsilon^2),   B_k = w_k l^2 1,   Q_k = [A_k 0; 0 B_k]
  *   J_k = [1 0; [d_k x] 1],   G = sum J_k Q_k J_k^T,   y = G^-1 (F, M - o x F)
  *   (f_k, m_k) = Q_k J_k^T y;   without any weight all are zero
- * A contact's wrench about the world origin, (m_k + p_k x f_k, f_k), is taken off the torques of
- * the joints that carry it, as in ground_reference.h; those that carry every mass and every contact
- * have none.
- * Written as it stands here, with matrices and Gaussian elimination in complex numbers, to test the
- * lane kernels by complex steps.
+ * A wrench (M, F) on a link below joint i has at it the generalized force beta . M + s . F, where
+ * the motion (beta, s) is read off  dA/dq_i A^-1 = [beta x, s],  dA_i/dq_i = A_p T_i'. A contact's
+ * wrench about the world origin, (m_k + p_k x f_k, f_k), is taken off the torques of the joints
+ * that carry it; those that carry every mass and every contact have none. Written as it stands
+ * here, with matrices and Gaussian elimination in complex numbers, to test the lane kernels by
+ * complex steps.
  */
 #ifndef AMBULO_TESTS_CONTACT_REFERENCE_H
 #define AMBULO_TESTS_CONTACT_REFERENCE_H
 
-#include "support/ground_reference.h"
+#include "ambulo/mechanics.h"
+#include "mechanics/lagrangian.h"
+#include "model/model.h"
 
 #include <math.h>
+
+typedef struct reference_wrench {
+  scalar moment[3], force[3];
+} reference_wrench;
+
+static inline scalar reference_dot(const scalar a[3], const scalar b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void reference_cross(const scalar a[3], const scalar b[3], scalar out[3]) {
+  for (int i = 0; i < 3; i++) {
+    int u = (i + 1) % 3, v = (i + 2) % 3;
+    out[i] = a[u] * b[v] - a[v] * b[u];
+  }
+}
+
+static inline void reference_center_of_mass(const ambulo_model *model, const link_state *states,
+                                            scalar center[3]) {
+  double mass = 0;
+  for (int i = 0; i < 3; i++) center[i] = 0;
+  for (int l = 0; l < model->link_count; l++) {
+    const ambulo_link *link = &model->links[l];
+    mass += link->mass;
+    for (int i = 0; i < 3; i++) {
+      scalar r = states[l].a.e[i][3];
+      for (int k = 0; k < 3; k++) r += states[l].a.e[i][k] * link->com[k];
+      center[i] += link->mass * r;
+    }
+  }
+  for (int i = 0; i < 3; i++) center[i] /= mass;
+}
+
+/* beta . M + s . F at the joint of `link`. */
+static inline scalar reference_generalized_force(const ambulo_model *model,
+                                                 const link_state *states, int link,
+                                                 const reference_wrench *w) {
+  static const matrix identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  int parent = model->links[link].parent;
+  const matrix *p = parent >= 0 ? &states[parent].a : &identity, *a = &states[link].a;
+  const matrix *t1 = &states[link].t1;
+  scalar step[3][4], turn[3][3], total = 0;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 4; j++) {
+      step[i][j] = 0;
+      for (int k = 0; k < 3; k++) step[i][j] += p->e[i][k] * t1->e[k][j];
+    }
+    scalar slide = step[i][3];
+    for (int j = 0; j < 3; j++) {
+      turn[i][j] = 0;
+      for (int k = 0; k < 3; k++) turn[i][j] += step[i][k] * a->e[j][k];
+      slide -= turn[i][j] * a->e[j][3];
+    }
+    total += slide * w->force[i];
+  }
+  for (int i = 0; i < 3; i++) total += turn[(i + 2) % 3][(i + 1) % 3] * w->moment[i];
+  return total;
+}
+
+/* Takes the wrench off the torques of every joint from a link to the world. */
+static inline void reference_subtract(const ambulo_model *model, const link_state *states, int link,
+                                      const reference_wrench *w, scalar *tau) {
+  for (; link >= 0; link = model->links[link].parent) {
+    int k = model->links[link].coordinate;
+    if (k >= 0) tau[k] -= reference_generalized_force(model, states, link, w);
+  }
+}
 
 enum { reference_most_contacts = 6 };
 

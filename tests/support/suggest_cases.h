@@ -8,7 +8,7 @@
 #include "support/engine_fixture.h"
 #include "support/test.h"
 
-static const char WALK[] = "tests/two_step/walk_normal.yaml";
+static const char WALK[] = "tests/support/walk_rigid.yaml";
 
 typedef struct miss {
   const char *file;

@@ -26,7 +26,7 @@ static ambulo_result *solve_with_slope(const char *const *settings, int count, d
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, count, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", settings, count, NULL, NULL, &problem),
       AMBULO_OK);
   ambulo_options options = ambulo_problem_options(problem);
   if (tolerance > 0.0) options.optimality_tolerance = options.feasibility_tolerance = tolerance;
@@ -77,12 +77,12 @@ static void the_best_is_smooth_in_an_event_time(void **state) {
   double ratio = (slope[0] - slope[1]) / (slope[1] - slope[2]);
   if (!(ratio > 2.5 && ratio < 6.5))
     print_error("slopes %.8f %.8f %.8f, ratio %g\n", slope[0], slope[1], slope[2], ratio);
-  assert_true(ratio > 2.5 && ratio < 6.5); /* 4, and 3e-8 of noise in f*; first order: 2 */
+  assert_true(ratio > 2.5 && ratio < 6.5); /* 4, and 1e-7 of noise in f*; first order: 2 */
   assert_true(fabs(slope[1] - slope[2]) < 1e-3 * fabs(slope[2]));
   double limit = (4.0 * slope[2] - slope[1]) / 3.0, by_hand = slope_by_hand();
-  if (!(fabs(by_hand - limit) < 1e-4 * fabs(limit)))
+  if (!(fabs(by_hand - limit) < 1e-3 * fabs(limit)))
     print_error("slope %.8f by hand, %.8f by solves\n", by_hand, limit);
-  assert_true(fabs(by_hand - limit) < 1e-4 * fabs(limit));
+  assert_true(fabs(by_hand - limit) < 1e-3 * fabs(limit));
   double jump = best_at(0.62 + 1e-4, "time.grid=uniform", "trajectory.knots=uniform") -
                 best_at(0.62 - 1e-4, "time.grid=uniform", "trajectory.knots=uniform");
   assert_true(fabs(jump) >
@@ -98,29 +98,39 @@ static double worst_between(const ambulo_result *result, const char *family, con
   return 0.0;
 }
 
+static ambulo_result *solve_rolling(const char *grid, const char *intervals) {
+  const char *const settings[] = {grid, intervals};
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", settings, intervals ? 2 : 1, NULL,
+                                       NULL, &problem),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  ambulo_problem_free(problem);
+  return result;
+}
+
 static void contacts_hold_up_to_their_events(void **state) {
   (void)state;
-  static const char *const uniform[] = {"time.grid=uniform"}, *const events[] = {
-                                                                  "time.grid=events"};
-  ambulo_result *before = solve_walk(uniform, 1, 0.0), *after = solve_walk(events, 1, 0.0);
-  assert_int_equal(ambulo_result_verdict(after), AMBULO_OPTIMAL);
-  assert_true(worst_between(before, "slip", "m") >
-              0.01); /* a toe between its last node and toe-off */
-  assert_true(worst_between(after, "slip", "m") < 0.002);
-  assert_true(worst_between(before, "contact", "m") > 0.01);
-  assert_true(worst_between(after, "contact", "m") < 0.0005);
-  assert_true(worst_between(before, "contact", "rad") > 0.005);
-  assert_true(worst_between(after, "contact", "rad") < 0.002);
+  ambulo_result *before = solve_rolling("time.grid=uniform", "time.intervals=25");
+  ambulo_result *after = solve_rolling("time.grid=events", "time.intervals=25");
+  ambulo_result *shipped = solve_rolling("time.grid=events", NULL);
+  assert_int_equal(ambulo_result_verdict(shipped), AMBULO_OPTIMAL);
+  assert_true(worst_between(before, "contact", "m") > 0.008);
+  assert_true(worst_between(after, "contact", "m") < 0.002);
+  assert_true(worst_between(before, "contact", "rad") > 0.01);
+  assert_true(worst_between(after, "contact", "rad") < 0.003);
   ambulo_result_free(before);
   ambulo_result_free(after);
+  ambulo_result_free(shipped);
 }
 
 /* every family of rows and every term, at a point of no importance */
 static void gradients_are_exact(void **state) {
   (void)state;
   enum { MOST = 40 };
-  static const char *const walks[] = {"two_step/walk_normal", "yardstick_12",
-                                      "two_step/walk_tracking", "walker_2d_step"};
+  static const char *const walks[] = {"support/walk_rigid", "yardstick_12", "walk_tracking",
+                                      "walker_2d_step"};
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events",
                                          "time.intervals=42", "trajectory.intervals=30"};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {

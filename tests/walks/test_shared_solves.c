@@ -68,7 +68,7 @@ static void a_solved_walk_loads_its_feet_in_time(void **state) {
   ambulo_result *result = NULL;
   ambulo_workspace *workspace = NULL;
   assert_int_equal(
-      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 6, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walk_rigid.yaml", settings, 6, NULL, NULL, &problem),
       AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);

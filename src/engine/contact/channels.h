@@ -15,15 +15,10 @@
  *   force    [3]        N                  4 d+3  | output rows (mechanics/plan.h)
  *   points   [p][3]     m                  4 d+6  |
  *
- * and with ground reaction, n = 4 d + 6 + 3 p, of s slots (contact/contact_load.h; of the two-step
- * split: the two feet) with r = 4 numbers each,
+ * and with ground reaction, n = 4 d + 6 + 3 p, of s slots (contact/contact_load.h)
  *
- *   reaction [s][4]     N, N m             n      |  force on the foot, free moment
- *   com      [3]        m                  n+r s /   centre of mass
- *
- * or, where contacts share the load, r = 6:
- *
- *   reaction [s][6]     N, N m             n         force, moment about the contact's centre
+ *   reaction [s][6]     N, N m             n      |  force, moment about the contact's centre
+ *   com      [3]        m                  n+6 s /   centre of mass
  *
  * Behind all of these the efforts of the devices [v], N m or N (contact/devices.h). tau is what
  * they leave to the person.
@@ -31,11 +26,12 @@
 #ifndef AMBULO_CONTACT_CHANNELS_H
 #define AMBULO_CONTACT_CHANNELS_H
 
+enum { AMBULO__SLOT_CHANNELS = 6 };
+
 typedef struct ambulo__channels {
   int coordinates, points;
-  int feet;      /* of the model, with ground reaction; else 0 */
-  int slots;     /* of ground reaction; the first are the feet's */
-  int slot_rows; /* 4 or 6 */
+  int feet;  /* of the model, with ground reaction; else 0 */
+  int slots; /* of ground reaction; the first are the feet's */
   int devices;
 } ambulo__channels;
 
@@ -62,15 +58,10 @@ static inline int ambulo__channel_point(const ambulo__channels *c, int point, in
   return 4 * c->coordinates + 6 + 3 * point + axis;
 }
 static inline int ambulo__channel_foot_force(const ambulo__channels *c, int slot, int axis) {
-  return 4 * c->coordinates + 6 + 3 * c->points + c->slot_rows * slot + axis;
+  return 4 * c->coordinates + 6 + 3 * c->points + AMBULO__SLOT_CHANNELS * slot + axis;
 }
-/* Where contacts share the load. */
 static inline int ambulo__channel_contact_moment(const ambulo__channels *c, int slot, int axis) {
   return ambulo__channel_foot_force(c, slot, 3 + axis);
-}
-/* Of the two-step split. */
-static inline int ambulo__channel_free_moment(const ambulo__channels *c, int foot) {
-  return ambulo__channel_foot_force(c, foot, 3);
 }
 static inline int ambulo__channel_center(const ambulo__channels *c, int axis) {
   return ambulo__channel_foot_force(c, c->slots, axis);

@@ -5,7 +5,7 @@
  *
  * Reading order: channels.h, row_kind.h, row_table.h, gait.h, phases.h, schedule.c, expand.c,
  * ends.c; bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c,
- * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c; segments.h, segment_box.h,
+ * clearance.c, feet_apart.c, zmp.c, sharing.c, limits.c, tube.c; segments.h, segment_box.h,
  * solid.h, collision.h, collision_pairs.c, collision_rows.c.
  */
 #ifndef AMBULO_CONTACT_GAIT_H
@@ -82,11 +82,6 @@ void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_t
  * E_PROBLEM with the time when a support polygon is empty. */
 ambulo_status ambulo__zmp_rows(const ambulo__gait_context *context, ambulo__row_table *table,
                                ambulo_diagnostics *diagnostics);
-/* One side of a region of the ZMP, or of a point that is the ZMP shifted by a constant (m). */
-typedef struct ambulo__half_plane ambulo__half_plane;
-void ambulo__zmp_side_row(const ambulo__gait_context *context, int node, ambulo__row_kind kind,
-                          const char *subject, const ambulo__half_plane *side,
-                          ambulo__row_table *table);
 /* "contact": a loaded foot within the tolerances of its place and direction (m, rad). */
 void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* 1 at the first node of a loaded foot's contact; of times[nodes], s. */
@@ -113,9 +108,6 @@ double ambulo__tip_drop(const ambulo_problem_definition *definition, int foot, d
  * none. *is_left: its track is the left one of the two feet's. */
 int ambulo__swing_track(const ambulo_problem_definition *definition, int foot, double time,
                         int *is_left);
-/* "pressure": centre of pressure of each loaded foot (m); "friction" (body weights);
- * "free_moment" (m). Needs ground reaction. */
-void ambulo__reaction_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "joint_limit", "speed_limit", "torque_limit". */
 void ambulo__limit_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* Every tube has samples, a reference and widths >= 0; E_PROBLEM with its number otherwise. */

@@ -90,11 +90,6 @@ ambulo_status ambulo__holds_check(const ambulo_problem_definition *d, ambulo_dia
     if (!one) one = check_window(d, i, list);
     if (one) status = one;
   }
-  if (!status && d->hold_count > 0 && d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP)
-    status = REFUSE(list,
-                    "load '%s' in hands does not go with ground_reaction: {kind: two_step}; "
-                    "expected shared, or none",
-                    d->holds[0].name);
   return status;
 }
 

@@ -1,9 +1,8 @@
-/* contact/loading.h - since when a foot is loaded, until when, and how much it carries. */
+/* contact/loading.h - which contact holds a foot or patch when. */
 #ifndef AMBULO_CONTACT_LOADING_H
 #define AMBULO_CONTACT_LOADING_H
 
 #include "contact/contact_image.h"
-#include "contact/foot_outline.h"
 
 /* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that
  * ends at `duration` includes it. */
@@ -22,33 +21,5 @@ const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *defini
 /* Just before `time`. */
 const ambulo_contact *ambulo__contact_before(const ambulo_problem_definition *definition,
                                              int effector, double time);
-
-/* How the ground's force is shared at a time. */
-typedef struct ambulo__load {
-  double share[2]; /* of foot 0 and 1; sum 1 */
-  double apart[2]; /* D: nominal centre of pressure of foot 0 less that of foot 1, along
-                      forward and left, m; 0 unless both are loaded */
-} ambulo__load;
-/* `outlines`: of the model's two feet. */
-ambulo__load ambulo__load_at(const ambulo_problem_definition *definition,
-                             const ambulo__foot_outline *outlines, double time);
-
-/* How far the box of a contact on the heel has rolled at a time: 0 at the strike, 1 when the foot
- * is flat. `begins`: the contact whose `from` the strike is. */
-typedef struct ambulo__roll {
-  double part, duration; /* s: from strike to flat */
-  int begins;
-} ambulo__roll;
-ambulo__roll ambulo__heel_roll_at(const ambulo_problem_definition *definition,
-                                  const ambulo_contact *contact, double time);
-
-/* How the share of foot 0 changes with the time, and with those of the double support around it;
- * 1/s. Zero while one foot is loaded. */
-typedef struct ambulo__share_slopes {
-  double by_time, by_begin, by_end;
-  int begins, ends; /* the contacts that `from` and `to` of the double support are those of */
-} ambulo__share_slopes;
-ambulo__share_slopes ambulo__load_slopes_at(const ambulo_problem_definition *definition,
-                                            double time);
 
 #endif

@@ -16,6 +16,8 @@
 #include "contact/step_edge.h"
 #include "contact/swing.h"
 
+#include "model/model.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -242,7 +244,7 @@ static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_k
   return status;
 }
 
-/* where contacts share the load their forces begin and end by themselves; the split's do as told */
+/* where contacts share the load their forces begin and end by themselves */
 static double grade_of(const ambulo_problem_definition *d) {
   return d->ground_reaction.kind == AMBULO_REACTION_SHARED ? AMBULO__NODE_GRADE : 0.0;
 }

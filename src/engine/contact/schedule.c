@@ -171,20 +171,17 @@ void ambulo__schedule_before(const ambulo_problem_definition *d, const double *t
 
 /* one zero-moment point and one plane serve feet on level ground only */
 static ambulo_status check_level(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
-  int two_step = d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP;
-  if (!two_step && d->support == AMBULO_SUPPORT_OFF) return AMBULO_OK;
+  if (d->support == AMBULO_SUPPORT_OFF) return AMBULO_OK;
   for (int i = 0; i < d->contact_count; i++) {
     if (d->contacts[i].foot >= 0) continue;
-    return REFUSE(list, "ground_reaction: {kind: shared} knows contacts of patches",
-                  "contacts[%d]: patch '%s' does not go with %s; expected feet alone", i,
-                  d->model->patches[d->contacts[i].patch].name,
-                  two_step ? "ground_reaction: {kind: two_step}" : "constraints.zmp");
+    return REFUSE(list, "ground_reaction: {kind: shared} takes contacts of patches",
+                  "contacts[%d]: patch '%s' does not go with constraints.zmp; expected feet alone",
+                  i, d->model->patches[d->contacts[i].patch].name);
   }
   if (ambulo__contacts_are_level(d)) return AMBULO_OK;
   return REFUSE(list, "ground_reaction: {kind: shared} stands on contacts of any place",
-                "contacts: footholds of different height, slope or heading do not go with %s; "
-                "expected level ground",
-                two_step ? "ground_reaction: {kind: two_step}" : "constraints.zmp");
+                "contacts: footholds of different height, slope or heading do not go with "
+                "constraints.zmp; expected level ground");
 }
 
 ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,

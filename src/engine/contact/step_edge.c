@@ -11,6 +11,8 @@
  */
 #include "contact/step_edge.h"
 
+#include "contact/foot_outline.h"
+
 #include <math.h>
 
 /* of the way up: shares of the time in the air at which its foot comes over the first edge and past

@@ -17,11 +17,11 @@ typedef struct ambulo__polygon {
 } ambulo__polygon;
 
 /* One side: the ZMP z satisfies normal . z - offset >= 0. */
-struct ambulo__half_plane {
+typedef struct ambulo__half_plane {
   double normal[2];   /* unit, inwards */
   double offset;      /* m; includes the margin */
   const char *detail; /* static: "back", "front", "right", "left", "edge" */
-};
+} ambulo__half_plane;
 
 typedef struct ambulo__support_region {
   int count;

@@ -25,14 +25,13 @@
 static const double smallest_region = 1e-9;
 
 /* (17') one side of the support region, without the division by n.F */
-void ambulo__zmp_side_row(const ambulo__gait_context *context, int node, ambulo__row_kind kind,
-                          const char *subject, const ambulo__half_plane *side,
-                          ambulo__row_table *table) {
+static void side_row(const ambulo__gait_context *context, int node, const ambulo__half_plane *side,
+                     ambulo__row_table *table) {
   const ambulo_model *model = context->model;
   double a = side->normal[0], b = side->normal[1], c = side->offset;
   double h = context->definition->ground_height, mg = ambulo__model_weight(model);
-  ambulo__row_begin(table, kind, subject, side->detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node,
-                    context->times[node], 0.0);
+  ambulo__row_begin(table, AMBULO__KIND_ZMP, "support", side->detail, AMBULO__METRES,
+                    AMBULO_NOT_NEGATIVE, node, context->times[node], 0.0);
   for (int i = 0; i < 3; i++) {
     double f = model->forward[i], l = model->left[i], n = model->up[i];
     ambulo__row_term_add(table, node, ambulo__channel_moment(&context->channels, i),
@@ -126,8 +125,7 @@ static const int *feet_before(const ambulo__gait_context *context, int node) {
 static void region_rows(const ambulo__gait_context *context, int node, int before,
                         const ambulo__support_region *region, ambulo__row_table *table) {
   table->before = before;
-  for (int k = 0; k < region->count; k++)
-    ambulo__zmp_side_row(context, node, AMBULO__KIND_ZMP, "support", &region->side[k], table);
+  for (int k = 0; k < region->count; k++) side_row(context, node, &region->side[k], table);
   table->before = 0;
 }
 

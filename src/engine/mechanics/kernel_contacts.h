@@ -139,11 +139,11 @@ AMBULO__INLINE const double *contact_ground(const double *ground, int c) {
 }
 
 AMBULO__INLINE double *contact_at(const ambulo__plan *plan, int c, double *scratch) {
-  return scratch + plan->ground_at + contacts_first + c * contact_slot;
+  return scratch + plan->contacts_at + contacts_first + c * contact_slot;
 }
 
 AMBULO__INLINE const double *contact_kept(const ambulo__plan *plan, int c, const double *scratch) {
-  return scratch + plan->ground_at + contacts_first + c * contact_slot;
+  return scratch + plan->contacts_at + contacts_first + c * contact_slot;
 }
 
 /* The root wrench with what the bodies hold. */
@@ -156,7 +156,7 @@ AMBULO__INLINE wide_pair with_taken(const ambulo__plan *plan, wide_pair w, const
 AMBULO__INLINE void contacts_place(const ambulo__plan *plan, const double *ground,
                                    double *scratch) {
   const wide one = spread(1);
-  double *all = scratch + plan->ground_at;
+  double *all = scratch + plan->contacts_at;
   wide total = {0};
   wide3 middle = {{0}, {0}, {0}}, o = load3(ground), rest = middle;
   for (int c = 0; c < plan->contacts; c++) total += load(contact_ground(ground, c));
@@ -187,7 +187,7 @@ AMBULO__INLINE contacts_grasp contacts_couple(const ambulo__plan *plan, const do
                                               wide3 center, double *scratch) {
   const double preference = contacts_preference(plan);
   const wide zero = {0};
-  const wide3 rest = load3(scratch + plan->ground_at + contacts_rest);
+  const wide3 rest = load3(scratch + plan->contacts_at + contacts_rest);
   contacts_grasp g = {scalar6(spread(1)),
                       scalar6(spread(plan->moment_arm * plan->moment_arm)),
                       {{zero, -rest.z, rest.y}, {rest.z, zero, -rest.x}, {-rest.y, rest.x, zero}}};
@@ -238,7 +238,7 @@ AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *gro
   store_pair(at + contact_acts, (wide_pair){add_cross3(m, p, f), f});
   if (keep) store3(at + contact_moved, u);
   if (!out) return;
-  out += (ambulo__plan_first_foot_row(plan) + 6 * c) * AMBULO__LANES;
+  out += (ambulo__plan_first_contact_row(plan) + 6 * c) * AMBULO__LANES;
   store3(out, f);
   store3(out + three, m);
 }
@@ -247,7 +247,7 @@ AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *gro
  * what is fixed left out; out: rows of the contacts and of the centre of mass, or NULL. */
 AMBULO__INLINE void contacts_share_out(const ambulo__plan *plan, const double *ground, int keep,
                                        wide_pair w, wide3 first, double *out, double *scratch) {
-  double *at = scratch + plan->ground_at;
+  double *at = scratch + plan->contacts_at;
   wide3 center = add3(first, spread3(plan->fixed_first));
   center = scale3(spread(1 / plan->mass), center);
   const contacts_grasp g = grasp_factors(contacts_couple(plan, ground, center, scratch));
@@ -256,7 +256,8 @@ AMBULO__INLINE void contacts_share_out(const ambulo__plan *plan, const double *g
     contact_share_of(plan, ground, c, keep, y, out, scratch);
   }
   if (out) {
-    store3(out + (ambulo__plan_first_foot_row(plan) + 6 * plan->contacts) * AMBULO__LANES, center);
+    store3(out + (ambulo__plan_first_contact_row(plan) + 6 * plan->contacts) * AMBULO__LANES,
+           center);
   }
   if (!keep) return;
   store_pair(at + contacts_wrench, w);
@@ -268,7 +269,7 @@ AMBULO__INLINE wide3 contact_asks(const ambulo__plan *plan, const double *ground
                                   const double *weights, wide_pair v, wide_pair *t,
                                   const double *scratch) {
   const double *at = contact_kept(plan, c, scratch);
-  const double *row = weights + (ambulo__plan_first_foot_row(plan) + 6 * c) * AMBULO__LANES;
+  const double *row = weights + (ambulo__plan_first_contact_row(plan) + 6 * c) * AMBULO__LANES;
   wide3 p = load3(contact_ground(ground, c) + AMBULO__LANES);
   wide3 a = add_cross3(sub3(load3(row), v.linear), p, v.angular);
   wide3 b = sub3(load3(row + three), v.angular), push = contact_push(at, a);
@@ -292,8 +293,8 @@ AMBULO__INLINE wide3 contact_pulls(const double *at, wide3 a, wide_pair z, wide3
 AMBULO__INLINE wide3 contacts_adjoints(const ambulo__plan *plan, const double *ground,
                                        const double *weights, const wide_pair *v, wide_pair *root,
                                        const double *scratch) {
-  const double *at = scratch + plan->ground_at;
-  int last = ambulo__plan_first_foot_row(plan) + 6 * plan->contacts;
+  const double *at = scratch + plan->contacts_at;
+  int last = ambulo__plan_first_contact_row(plan) + 6 * plan->contacts;
   wide_pair t = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
   wide3 a[AMBULO__MOST_CONTACTS], pull = load3(weights + last * AMBULO__LANES);
   for (int c = 0; c < plan->contacts; c++) {

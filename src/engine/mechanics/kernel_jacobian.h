@@ -260,7 +260,7 @@ static void jacobian_part(const ambulo__plan *plan, const world_inputs *x, doubl
     world_limb(plan, limb, x, scratch);
     for (int k = limb->leaf;; k = plan->local.steps[k].parent) {
       sum = complete_subtree(plan, k, sum, scratch);
-      if (plan->grounded) {
+      if (plan->contacts > 0) {
         column_on_ground(plan, k, sum, jq, jqd, jqdd, scratch);
       } else {
         column_in_air(plan, k, sum, jq, jqd, jqdd, scratch);

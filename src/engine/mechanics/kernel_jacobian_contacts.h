@@ -1,7 +1,13 @@
 /* mechanics/kernel_jacobian_contacts.h - what contacts add to the Jacobians.
  *
- * As on two feet (kernel_jacobian_ground.h), with W_i the sum of the wrenches that joint i carries,
- *   dtau_i = [the same as without ground reaction] - (S_j x S_i) . W_i - S_i . dW_i.
+ * With t_j the changes of the root wrench (M, F) with q_j, qd_j or qdd_j, which are the columns t3,
+ * t2, t1 of kernel_jacobian.h, and W_i the sum of the wrenches of the contacts that joint i
+ * carries, dtau_i = [the same as without ground reaction] - (S_j x S_i) . W_i - S_i . dW_i, the
+ * second term only for j above i and q: the turn of S_i no longer cancels, since the wrenches of
+ * contacts do not turn with the subtree. It reads S_j . (-(S_i x* W_i)), with S x* f as there, and
+ * is added to the entry of q_j in the row.
+ *
+ * The third couples every joint above a contact with all coordinates.
  * In the letters of kernel_contacts.h, f_c = A_c u_c and m_c = w_c l^2 eta change with the
  * multipliers y = (eta, v) and with the centre of mass c, q_c = u_c - 2 (r . u) r / r^2:
  *   df_c = A_c (dv + deta x d_c) + D_c dc,   D_c = k ((r . u) 1 + r q^T),   dm_c = w_c l^2 deta
@@ -10,13 +16,15 @@
  * each of them. With S_i = (beta, s),
  *   S_i . dW_c = beta . dm_c + (s + beta x p_c) . df_c
  * so that a row of tau above contacts has nine, too, made of theirs with a minus. The centre of
- * mass moves with q_j by dF/dqdd_j over the mass (plan_contacts.c).
+ * mass moves with q_j by dF/dqdd_j over the mass (plan_contacts.c). Only the factors are written:
+ * multiplied out the rows would be the larger part of all entries. Who reads a row multiplies them
+ * out (problem/output_gradient.c).
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_CONTACTS_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_CONTACTS_H
 
 #include "mechanics/kernel_contacts.h"
-#include "mechanics/kernel_jacobian_ground.h"
+#include "mechanics/kernel_jacobian.h"
 
 /* Wrench of the contacts that a joint carries. */
 AMBULO__INLINE wide_pair contacts_carried(const ambulo__plan *plan, int carried,
@@ -29,13 +37,32 @@ AMBULO__INLINE wide_pair contacts_carried(const ambulo__plan *plan, int carried,
   return sum;
 }
 
+/* Adds S_j . (-(s x* w)) to the entries of the joints above: the turn of a joint's motion s against
+ * the wrench w of the contacts that it carries. Nothing stands yet in the columns of straight
+ * joints.
+ */
+AMBULO__INLINE void contact_turn(const ambulo__change_step *step, const ambulo__pair *pairs,
+                                 wide_pair w, wide_pair s, double *jq, const double *scratch) {
+  const ambulo__pair *pair = pairs + step->first, *last = pair + step->count;
+  const ambulo__pair *straight = pair + step->straight;
+  const wide_pair turn = {add_cross3(cross3(w.angular, s.angular), w.linear, s.linear),
+                          cross3(w.linear, s.angular)};
+  double *lower = jq + step->lower;
+  for (; pair < straight; pair++, lower += AMBULO__LANES) {
+    store(lower, straight_part(pair, turn.linear, scratch));
+  }
+  for (; pair < last; pair++, lower += AMBULO__LANES) {
+    store(lower, add_dot_pair(load(lower), turn, load_pair(scratch + pair->motion)));
+  }
+}
+
 AMBULO__STEP void contact_turns(const ambulo__plan *plan, double *jq, const double *scratch) {
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__joint *joint = &plan->joints[k];
     if (joint->torque_row != AMBULO__ROW_REACTS) continue;
-    ground_turn(&plan->steps.changes[k], plan->steps.pairs,
-                contacts_carried(plan, joint->feet, scratch), load_pair(scratch + joint->motion_at),
-                jq, scratch);
+    contact_turn(&plan->steps.changes[k], plan->steps.pairs,
+                 contacts_carried(plan, joint->contacts, scratch),
+                 load_pair(scratch + joint->motion_at), jq, scratch);
   }
 }
 
@@ -66,7 +93,7 @@ AMBULO__INLINE wide_pair contacts_shift(const ambulo__plan *plan, int k, const d
 /* y by M, F and c. */
 AMBULO__INLINE void contacts_columns(const ambulo__plan *plan, wide_pair *y,
                                      const double *scratch) {
-  const double *at = scratch + plan->ground_at;
+  const double *at = scratch + plan->contacts_at;
   const contacts_grasp g = load_grasp(at);
   const wide zero = {0}, one = spread(1);
   const wide3 none = {zero, zero, zero}, x = load3(at + contacts_middle);
@@ -86,7 +113,7 @@ AMBULO__INLINE void contact_factors(const ambulo__plan *plan, int c, const wide_
                                     const double *scratch) {
   enum { row = AMBULO__CONTACT_FACTORS * AMBULO__LANES };
   const double *at = contact_kept(plan, c, scratch);
-  double *out = jq + (plan->foot_factors + 6 * c * AMBULO__CONTACT_FACTORS) * AMBULO__LANES;
+  double *out = jq + (plan->contact_factors + 6 * c * AMBULO__CONTACT_FACTORS) * AMBULO__LANES;
   wide3 d = load3(at + contact_arm), r = load3(at + contact_line), q = contact_slant(at);
   wide share = load(at + contact_share), taste = load(at + contact_taste);
   wide spin = share * (plan->moment_arm * plan->moment_arm);
@@ -115,9 +142,9 @@ AMBULO__INLINE void contact_torque(const ambulo__plan *plan, const double *groun
   const wide_pair s = load_pair(scratch + joint->motion_at);
   wide sum[AMBULO__CONTACT_FACTORS] = {{0}};
   double *out = jq + joint->factors * AMBULO__LANES;
-  for (int c = 0; joint->feet >> c; c++) {
-    if (!(joint->feet >> c & 1)) continue;
-    const double *from = jq + plan->foot_factors * AMBULO__LANES + 6 * c * row;
+  for (int c = 0; joint->contacts >> c; c++) {
+    if (!(joint->contacts >> c & 1)) continue;
+    const double *from = jq + plan->contact_factors * AMBULO__LANES + 6 * c * row;
     wide3 slide = add_cross3(s.linear, s.angular, load3(contact_ground(ground, c) + AMBULO__LANES));
     for (int k = 0; k < AMBULO__CONTACT_FACTORS; k++, from += AMBULO__LANES) {
       wide3 f = {load(from), load(from + row), load(from + 2 * row)};

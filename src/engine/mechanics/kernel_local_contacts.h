@@ -1,11 +1,29 @@
 /* mechanics/kernel_local_contacts.h - the contacts' wrenches in the frames' own axes.
  *
- * As kernel_local_ground.h does with two feet: limbs down, frames placed, bodies' loads summed up,
- * the root wrench shared out (kernel_contacts.h), each contact's wrench W_c taken off the load of
- * its frame, limbs up. The adjoints are those of there, too: with V_c the virtual motion of the
- * joints that carry contact c, root weights and all, q_j' += S_j . Q_c(V_c) for those joints.
+ * The loads of the subtrees, which tau is made of, need the contacts' wrenches, and these the root
+ * wrench. With ground reaction all limbs are gone down first; then the frames are placed
+ * (kernel_local_points.h), and the bodies' loads summed up in world axes to the root wrench, which
+ * the contacts share (kernel_contacts.h). A contact's wrench (M_c, F_c) is taken off the load of
+ * its frame, at o with the columns R,
+ *   n -= R^T (M_c - o x F_c),   f -= R^T F_c,
+ * and the pass up the tree gives tau. It ends below the joints that carry the whole body: their
+ * load and the contacts' wrenches cancel.
  *
- * One thing is new. Joints that carry everything have no load left where the contacts bear the
+ * Adjoints, with the weights y on tau of the joints that carry contact c: V_c = sum S_i y_i is the
+ * virtual motion that they give it (world axes, about the world origin). contacts_adjoints makes of
+ * V_c the weights on the root wrench and on the centre of mass, through which W_c depends on the
+ * motion. What is left is the turn of the joints' axes against a W_c that stands still. A step of
+ * q_j turns each S_i below j, so that, with D_j the part of V_c from the joints below j,
+ *   d(- V_c . W_c)/dq_j = S_j . Q(D_j),   Q(e, l) = (M_c x e + F_c x l, F_c x e).
+ * The reverse sweep does not know D_j. It has the virtual motion A_j of the frame, from the root
+ * down to j, root weights and all, and takes the net load for one that turns with the subtree: its
+ * part is -S_j . Q(A_j). Since E_c = A_j + D_j, the virtual motion of the contact with the root
+ * weights, is the same for all j, and Q is linear, what is missing is one pair for all the joints
+ * that carry c:
+ *   q_j' += S_j . Q(E_c).
+ * Where tau vanishes the net load is zero, and y does not count.
+ *
+ * Joints that carry everything have no load left where the contacts bear the
  * whole wrench, and the sweep up ends below them. Where no contact has weight the load of all of
  * them is the root wrench (M, F), about the world origin. Their tau stays zero and has no adjoint;
  * but a step of theirs turns (M, F), whose weights are the virtual motion A of the root:
@@ -18,7 +36,66 @@
 #define AMBULO_MECHANICS_KERNEL_LOCAL_CONTACTS_H
 
 #include "mechanics/kernel_contacts.h"
-#include "mechanics/kernel_local_ground.h"
+#include "mechanics/kernel_local_points.h"
+
+/* (W.4): Takes the wrench w off the load of a contact's frame; bare: it has none yet. */
+AMBULO__INLINE void take_off(const ambulo__local_step *step, int bare, wide_pair w,
+                             double *scratch) {
+  double *at = scratch + step->at;
+  wide3 x = load3(at + local_columns), y = load3(at + local_columns + three);
+  wide3 z = load3(at + local_columns + 2 * three), f = w.linear;
+  wide3 n = add_cross3(w.angular, f, load3(at + local_origin));
+  wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  if (!bare) sum = load_pair(at + local_load);
+  wide3 m = sum.angular, g = sum.linear;
+  m = (wide3){subtract_dot3(m.x, x, n), subtract_dot3(m.y, y, n), subtract_dot3(m.z, z, n)};
+  g = (wide3){subtract_dot3(g.x, x, f), subtract_dot3(g.y, y, f), subtract_dot3(g.z, z, f)};
+  store_pair(at + local_load, (wide_pair){m, g});
+}
+
+/* Adds the virtual motion by the weights on tau of the joints of a path. */
+AMBULO__INLINE wide_pair virtual_of_path(const ambulo__local_plan *local, int path,
+                                         const double *weights, wide_pair v,
+                                         const double *scratch) {
+  const ambulo__pivot *pivot = &local->pivots[local->path[path].first_pivot];
+  const ambulo__pivot *last = &local->pivots[local->path[path + 1].first_pivot];
+  const ambulo__carrier *carrier = &local->carrier[local->path[path].first_carrier];
+  for (; pivot < last; pivot++) {
+    wide3 sum = {{0}, {0}, {0}};
+    for (const ambulo__carrier *end = carrier + pivot->count; carrier < end; carrier++) {
+      wide y = carrier->sign * load(weights + carrier->input);
+      sum = axpy3(sum, y, load3(scratch + carrier->axis_at));
+    }
+    if (pivot->slides) {
+      v.linear = add3(v.linear, sum);
+    } else {
+      v.angular = add3(v.angular, sum);
+      v.linear = add_cross3(v.linear, load3(scratch + pivot->origin_at), sum);
+    }
+  }
+  return v;
+}
+
+/* V of each contact. */
+AMBULO__INLINE void virtual_of_contacts(const ambulo__plan *plan, const double *weights,
+                                        wide_pair *v, const double *scratch) {
+  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  const ambulo__local_plan *local = &plan->local;
+  wide_pair along[AMBULO__MOST_PATHS];
+  for (int i = 0; i < local->path_count; i++) {
+    int above = local->path[i].above;
+    along[i] = virtual_of_path(local, i, weights, above < 0 ? zero : along[above], scratch);
+  }
+  for (int f = 0; f < plan->contacts; f++) {
+    v[f] = local->contact_path[f] < 0 ? zero : along[local->contact_path[f]];
+  }
+}
+
+/* Q(v) */
+AMBULO__INLINE wide_pair turned_against(wide_pair w, wide_pair v) {
+  return (wide_pair){add_cross3(cross3(w.angular, v.angular), w.linear, v.linear),
+                     cross3(w.linear, v.angular)};
+}
 
 /* What the contacts do to the loads of the bodies: root wrench, contacts, and their rows. */
 AMBULO__INLINE void local_contacts(const ambulo__plan *plan, int keep, const double *ground,
@@ -29,26 +106,22 @@ AMBULO__INLINE void local_contacts(const ambulo__plan *plan, int keep, const dou
   store_pair(out + plan->coordinates * AMBULO__LANES, w);
   contacts_share_out(plan, ground, keep, w, sums.first, out, scratch);
   for (int c = 0; c < plan->contacts; c++) {
-    if (local->foot[c] < 0) continue;
-    take_off(&local->steps[local->foot[c]], local->bare[c],
+    if (local->contact_step[c] < 0) continue;
+    take_off(&local->steps[local->contact_step[c]], local->bare[c],
              load_pair(contact_at(plan, c, scratch) + contact_acts), scratch);
   }
 }
 
-/* All outputs of a body on two feet, or on contacts. */
+/* All outputs of a body on contacts. */
 AMBULO__INLINE void local_grounded(const ambulo__plan *plan, int keep, const double *q,
                                    const double *qd, const double *qdd, const double *ground,
                                    double *out, double *scratch) {
   const ambulo__limb *limbs = plan->local.limbs;
-  if (plan->contacts > 0) contacts_place(plan, ground, scratch);
+  contacts_place(plan, ground, scratch);
   for (int i = 0; i < plan->local.limb_count; i++) {
     limb_down(plan, &limbs[i], keep, q, qd, qdd, scratch);
   }
-  if (plan->contacts > 0) {
-    local_contacts(plan, keep, ground, out, scratch);
-  } else {
-    local_ground(plan, keep, ground, out, scratch);
-  }
+  local_contacts(plan, keep, ground, out, scratch);
   for (int i = 0; i < plan->local.limb_count; i++) {
     limb_up(plan, &limbs[i], keep, q, out, scratch);
   }
@@ -59,16 +132,16 @@ AMBULO__INLINE void local_grounded(const ambulo__plan *plan, int keep, const dou
 static local_pulls local_contact_adjoints(const ambulo__plan *plan, const double *ground,
                                           const double *weights, wide_pair *root,
                                           const double *scratch) {
-  const double *at = scratch + plan->ground_at;
+  const double *at = scratch + plan->contacts_at;
   const wide floating = load(at + contacts_floating);
   wide_pair v[AMBULO__MOST_CONTACTS];
   local_pulls pulls;
-  virtual_of_feet(plan, weights, v, scratch);
+  virtual_of_contacts(plan, weights, v, scratch);
   pulls.center = contacts_adjoints(plan, ground, weights, v, root, scratch);
   pulls.center = scale3(spread(1 / plan->mass), pulls.center);
   for (int c = 0; c < plan->contacts; c++) {
     wide_pair w = load_pair(contact_kept(plan, c, scratch) + contact_acts);
-    pulls.feet[c] = turned_against(w, add_pair(v[c], *root));
+    pulls.contacts[c] = turned_against(w, add_pair(v[c], *root));
   }
   wide_pair turned = turned_against(load_pair(at + contacts_wrench), *root);
   pulls.floating = (wide_pair){scale3(floating, turned.angular), scale3(floating, turned.linear)};

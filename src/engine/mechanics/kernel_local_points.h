@@ -207,11 +207,11 @@ static wide_pair weights_of_points(const ambulo__steps *steps, int number, wide_
   return sum;
 }
 
-/* What acts on the body like weights on points (kernel_local_ground.h). */
+/* What acts on the body like weights on points (kernel_local_contacts.h). */
 typedef struct local_pulls {
-  wide3 center;                          /* on the centre of mass, over the mass: G */
-  wide_pair floating;                    /* on the joints that carry the whole body */
-  wide_pair feet[AMBULO__MOST_CONTACTS]; /* on the joints that carry a foot or contact */
+  wide3 center;                              /* on the centre of mass, over the mass: G */
+  wide_pair floating;                        /* on the joints that carry the whole body */
+  wide_pair contacts[AMBULO__MOST_CONTACTS]; /* on the joints that carry a contact */
 } local_pulls;
 
 /* R b, from what local_places has stored. */
@@ -234,8 +234,8 @@ AMBULO__INLINE wide_pair add_pulls(const ambulo__local_step *step, wide_pair sum
     sum.linear = add3(sum.linear, push);
   }
   if (step->floats) sum = add_pair(pulls->floating, sum);
-  for (int f = 0; step->feet >> f; f++) {
-    if (step->feet >> f & 1) sum = add_pair(pulls->feet[f], sum);
+  for (int f = 0; step->contacts >> f; f++) {
+    if (step->contacts >> f & 1) sum = add_pair(pulls->contacts[f], sum);
   }
   return sum;
 }

@@ -31,7 +31,7 @@
  *   w_p = R (w - z qd),   alpha_p = R (alpha - w x z qd - z qdd),   a_p = R a - Omega_p r,
  * which costs less than to carry them to and from the second cache in bodies of many limbs. The
  * forward pass stores those of leaves, of forks, and above sliders.
- * Ground reaction: kernel_local_ground.h, on contacts kernel_local_contacts.h.
+ * Ground reaction: kernel_local_contacts.h.
  * Points: kernel_local_points.h.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
@@ -314,9 +314,8 @@ static void local_reverse_part(const ambulo__plan *plan, const double *ground,
                                const local_arrays *x) {
   wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES);
   local_pulls pulls, *acting = NULL;
-  if (plan->grounded) {
-    pulls = plan->contacts > 0 ? local_contact_adjoints(plan, ground, x->weights, &root, x->scratch)
-                               : local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
+  if (plan->contacts > 0) {
+    pulls = local_contact_adjoints(plan, ground, x->weights, &root, x->scratch);
     acting = &pulls;
   }
   if (plan->taken_at) store_pair(x->scratch + plan->taken_at + 2 * three, root);

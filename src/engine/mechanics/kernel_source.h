@@ -10,7 +10,6 @@
 
 #include "mechanics/kernel_jacobian.h"
 #include "mechanics/kernel_jacobian_contacts.h"
-#include "mechanics/kernel_jacobian_ground.h"
 #include "mechanics/kernel_local_reverse.h"
 
 static const double *lanes_from(const double *ground, int lane) {
@@ -22,7 +21,7 @@ AMBULO__INLINE void local_forward_part(const ambulo__plan *plan, int keep, const
                                        double *out, double *scratch) {
   local_angles(&plan->local, q, scratch);
   local_world(plan, scratch);
-  if (plan->grounded) {
+  if (plan->contacts > 0) {
     local_grounded(plan, keep, q, qd, qdd, ground, out, scratch);
     return;
   }
@@ -62,11 +61,8 @@ static void jacobian(const ambulo__plan *plan, const double *q, const double *qd
     const world_inputs x = {q + lane, qd + lane, qdd + lane};
     local_angles(&plan->local, x.q, scratch + lane);
     jacobian_part(plan, &x, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
-    if (plan->contacts > 0) {
-      jacobian_contacts_part(plan, ground + lane, jq + lane, scratch + lane);
-    } else if (plan->grounded) {
-      jacobian_ground_part(plan, ground + lane, jq + lane, scratch + lane);
-    }
+    if (plan->contacts == 0) continue;
+    jacobian_contacts_part(plan, ground + lane, jq + lane, scratch + lane);
   }
 }
 

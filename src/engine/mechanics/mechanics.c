@@ -7,8 +7,8 @@
  *
  * Reading order: lagrangian.c (the equations as printed), plan.c, plan_layout.h, plan_local.h,
  * plan_steps.h; kernels.h, dispatch.c, kernel_source.h, and from there kernel_wide.h,
- * kernel_local_forward.h, kernel_local_reverse.h, kernel_jacobian.h; kernel_ground.h where the
- * ground's force acts.
+ * kernel_local_forward.h, kernel_local_reverse.h, kernel_jacobian.h; kernel_contacts.h where
+ * the ground's force acts.
  */
 #include <math.h>
 #include <string.h>

@@ -208,7 +208,7 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
   }
   collect_bodies(plan, model, placings, masses);
   collect_points(plan, model, placings);
-  if (footing->feet > 0 && ambulo__plan_ground(plan, model, footing, placings)) goto done;
+  if (footing->count > 0 && ambulo__plan_carriers(plan, footing, placings)) goto done;
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
@@ -250,16 +250,6 @@ ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_alloca
   return create(model, &none, allocator, plan);
 }
 
-ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double ground_height,
-                                           const ambulo_allocator *allocator, ambulo__plan **plan) {
-  if (model->foot_count != 2) return AMBULO_E_ARGUMENT;
-  ambulo__footing footing = {.feet = 2, .height = ground_height};
-  for (int f = 0; f < 2; f++) {
-    footing.link[f] = model->points[model->feet[f].heel_center].link;
-  }
-  return create(model, &footing, allocator, plan);
-}
-
 static int is_positive(double value) {
   return value > 0 && isfinite(value);
 }
@@ -267,8 +257,7 @@ static int is_positive(double value) {
 ambulo_status ambulo__plan_create_contacts(const ambulo_model *model, const int *link, int count,
                                            double moment_arm, double slant,
                                            const ambulo_allocator *allocator, ambulo__plan **plan) {
-  ambulo__footing footing = {
-      .feet = count, .contacts = 1, .moment_arm = moment_arm, .slant = slant};
+  ambulo__footing footing = {.count = count, .moment_arm = moment_arm, .slant = slant};
   if (count < 1 || count > AMBULO__MOST_CONTACTS) return AMBULO_E_ARGUMENT;
   if (!is_positive(moment_arm) || !is_positive(slant)) return AMBULO_E_ARGUMENT;
   for (int c = 0; c < count; c++) {

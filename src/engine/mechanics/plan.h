@@ -21,11 +21,6 @@ typedef struct ambulo__plan ambulo__plan;
 /* Errors: E_MEMORY. The plan keeps no pointer to the model. */
 ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                   ambulo__plan **plan);
-/* The same, with the two-step ground reaction of kernel_ground.h on the plane
- * up . r = ground_height: the torques are those of a body that stands on its feet.
- * Errors: E_ARGUMENT (not exactly two feet), E_MEMORY. */
-ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double ground_height,
-                                           const ambulo_allocator *allocator, ambulo__plan **plan);
 /* The same, with the wrenches of the ground and of other surfaces on `count` contacts, contact c
  * acting on link[c], by the law of kernel_contacts.h with the reach `moment_arm` (l, m) of a
  * contact's moments, and `slant` (epsilon), the price of force that points past the centre of mass
@@ -48,29 +43,27 @@ void ambulo__plan_free(ambulo__plan *plan); /* accepts NULL */
 
 int ambulo__plan_coordinates(const ambulo__plan *plan);
 int ambulo__plan_points(const ambulo__plan *plan);
-int ambulo__plan_is_grounded(const ambulo__plan *plan); /* on two feet or on contacts */
-int ambulo__plan_contacts(const ambulo__plan *plan);    /* 0 without, and on two feet */
+int ambulo__plan_contacts(const ambulo__plan *plan); /* 0: without ground reaction */
 /* Doubles of scratch that any kernel needs; 64-byte aligned. The scratch carries
  * the forward pass over to the reverse sweep. */
 size_t ambulo__plan_scratch(const ambulo__plan *plan);
 
 /* Output rows of the mechanics, in this order: tau (d rows), moment (3), force
  * (3), point coordinates (3 p: x, y, z of point 0, then of point 1, ...); with
- * ground reaction then, for each foot, the force on it (3) and its free moment
- * about the normal (1), or for each contact, the force on it (3) and the moment
+ * ground reaction then, for each contact, the force on it (3) and the moment
  * about its own centre (3), and the centre of mass (3).
  *
- * On contacts, joints that carry all of them and every body have tau = 0: what they
+ * Joints that carry all contacts and every body have tau = 0: what they
  * would need, the contacts supply. At a node where no contact has weight (flight)
  * nobody does: there the root wrench must be held at zero by who wants a motion that
  * can be. */
 static inline int ambulo__plan_rows(const ambulo__plan *plan) {
-  int contacts = ambulo__plan_contacts(plan), feet = ambulo__plan_is_grounded(plan) ? 11 : 0;
+  int contacts = ambulo__plan_contacts(plan);
   return ambulo__plan_coordinates(plan) + 6 + 3 * ambulo__plan_points(plan) +
-         (contacts > 0 ? 6 * contacts + 3 : feet);
+         (contacts > 0 ? 6 * contacts + 3 : 0);
 }
 /* First of the rows that only a plan with ground reaction has. */
-static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
+static inline int ambulo__plan_first_contact_row(const ambulo__plan *plan) {
   return ambulo__plan_coordinates(plan) + 6 + 3 * ambulo__plan_points(plan);
 }
 
@@ -83,9 +76,9 @@ static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
  *
  * What follows from other rows is not stored (ambulo__plan_parts). Without entries are:
  * with ground reaction, the rows of tau that vanish identically (joints that carry the
- * whole body), and those of the feet or contacts and of the centre of mass; without, the rows of
+ * whole body), and those of the contacts and of the centre of mass; without, the rows of
  * tau that are rows of the root force (the sliders along world axes with which the whole body
- * stands on the world). With ground reaction a row of tau above a foot or contact has entries for
+ * stands on the world). With ground reaction a row of tau above a contact has entries for
  * what it would be if these wrenches stood still in the world; the rest is a product with the rows
  * of the root wrench, whose factors stand behind the entries of jq: from start[rows] to count. */
 typedef struct ambulo__plan_pattern {
@@ -113,18 +106,14 @@ typedef struct ambulo__row_part {
 int ambulo__plan_parts(const ambulo__plan *plan, int row,
                        ambulo__row_part part[AMBULO__MOST_PARTS]);
 
-/* What a block's ground reaction is told, [AMBULO__GROUND_ENTRIES][lanes]: share a of
- * foot 0 (that of foot 1 is 1 - a), nominal centre of pressure of foot 0 less that
- * of foot 1 (3, world axes, m), kappa (kernel_ground.h). */
-#define AMBULO__GROUND_ENTRIES 5
-/* How many of them a plan reads. On contacts 3 + 4 K: a point o near them (3, world axes,
- * m; no result depends on it but by rounding), then for each contact its weight (not negative; only
- * the proportions count; all zero: flight) and its centre (3, world axes, m). All are finite, also
- * those of a contact without weight. */
+/* How many entries [lanes] a plan reads of a block's ground: 0 without contacts, else 3 + 4 K: a
+ * point o near them (3, world axes, m; no result depends on it but by rounding), then for each
+ * contact its weight (not negative; only the proportions count; all zero: flight) and its centre
+ * (3, world axes, m). All are finite, also those of a contact without weight. */
 int ambulo__plan_ground_entries(const ambulo__plan *plan);
 
 /* Kernels, one set per instruction set. q, qd, qdd: [d]. ground: NULL unless the
- * plan is grounded; the same for the three calls. */
+ * plan is on contacts; the same for the three calls. */
 typedef struct ambulo__kernels {
   const char *name; /* "avx512", "avx2", "baseline", "scalar" */
 

@@ -24,17 +24,15 @@ void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
 
 /* What the body stands on. */
 typedef struct ambulo__footing {
-  int feet;                        /* feet or contacts; 0: it is in the air */
+  int count;                       /* of contacts; 0: it is in the air */
   int link[AMBULO__MOST_CONTACTS]; /* on which they act */
-  int contacts;                    /* not two feet */
-  double height;                   /* two feet: of the ground */
-  double moment_arm, slant;        /* contacts */
+  double moment_arm, slant;
 } ambulo__footing;
 
-/* Which joints carry which foot or contact, and their rows; frames, joints, bodies, points are
- * compiled. Errors: E_MEMORY. */
-ambulo_status ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model,
-                                  const ambulo__footing *footing, const ambulo__placing *placings);
+/* Which joints carry which contact, and their rows; frames, joints, bodies, points are compiled.
+ * Errors: E_MEMORY. */
+ambulo_status ambulo__plan_carriers(ambulo__plan *plan, const ambulo__footing *footing,
+                                    const ambulo__placing *placings);
 /* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
 void ambulo__plan_place(ambulo__plan *plan);
 /* The lists of steps, from all of the above. Errors: E_MEMORY. */
@@ -46,18 +44,10 @@ void ambulo__plan_local_free(ambulo__plan *plan);
 /* The world axis along which a joint slides, -1: it turns, or slides in another direction. */
 int ambulo__plan_world_axis(const ambulo__joint *joint);
 /* On contacts (plan_contacts.c): what the factors behind the entries are, and the vectors that the
- * kernels keep at plan->ground_at. */
+ * kernels keep at plan->contacts_at. */
 void ambulo__plan_contact_factors(ambulo__plan *plan);
 int ambulo__plan_contact_parts(const ambulo__plan *plan, int row, ambulo__row_part *part);
 int ambulo__plan_contact_entries(const ambulo__plan *plan);
-/* Parts of a product with all rows of the root wrench; returns how many that are. */
-static inline int ambulo__plan_add_wrench(const ambulo__plan *plan, int times,
-                                          ambulo__row_part *part) {
-  for (int k = 0; k < 6; k++) {
-    part[k] = (ambulo__row_part){plan->coordinates + k, 0, times + k, 1};
-  }
-  return 6;
-}
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
 

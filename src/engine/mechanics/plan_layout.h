@@ -36,14 +36,14 @@ typedef struct ambulo__joint {
   int turned;     /* the axis is oblique: columns of the turned frame are computed first */
   double turn[9]; /* rows; turned frame in parent frame */
   int axis;       /* which column of the (turned) frame is the axis */
-  int feet;       /* feet or contacts that it carries, a bit each */
+  int contacts;   /* those that it carries, a bit each */
   int torque_row; /* ambulo__torque_row */
-  int factors;    /* Jacobian: its factors in jq (plan_pattern.c), if the ground reacts */
+  int factors;    /* Jacobian: its factors in jq (plan_contacts.c), if the ground reacts */
   int motion_at;  /* Jacobian: S, 2 Sd and Sdd (18, kernel_world.h) */
 } ambulo__joint;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint; the same and, since it
- * carries a foot or contact, multiples of the rows of the root wrench; or none: with ground
+ * carries a contact, multiples of the rows of the root wrench; or none: with ground
  * reaction, because it carries the whole body (tau = 0); without, because it is a row of the root
  * force (plan_pattern.c). */
 typedef enum ambulo__torque_row {
@@ -53,22 +53,11 @@ typedef enum ambulo__torque_row {
   AMBULO__ROW_FOLLOWS
 } ambulo__torque_row;
 
-/* Factors in jq (plan_pattern.c): of a row of tau that reacts: of the root wrench (6) and of the
- * height of the centre of mass; of the feet. */
-enum {
-  AMBULO__TAU_FACTORS = 7,
-  factor_share = 0, /* a_0, a_1 */
-  factor_shear = 2, /* g */
-  factor_fall = 5,  /* g' */
-  factor_twist = 8, /* of T_0 and T_1 */
-  AMBULO__FOOT_FACTORS = 20
-};
-
-/* On contacts: by the root wrench (6) and by the centre of mass (3), of a row of tau and of each of
- * the six rows of a contact. */
+/* Factors in jq: by the root wrench (6) and by the centre of mass (3), of a row of tau that reacts
+ * and of each of the six rows of a contact (plan_contacts.c). */
 enum { AMBULO__CONTACT_FACTORS = 9 };
 
-/* On contacts, at ground_at: vectors of all contacts, then slots of vectors of each
+/* At contacts_at: vectors of all contacts, then slots of vectors of each
  * (kernel_contacts.h). */
 enum {
   contacts_wrench = 0,                   /* M, F */
@@ -105,15 +94,12 @@ struct ambulo__plan {
   int positions_at;     /* Jacobian: positions of the points (3 per point) */
   size_t scratch;       /* doubles */
 
-  /* Ground reaction: two feet (kernel_ground.h), or contacts (kernel_contacts.h). */
-  int grounded, contacts;
-  int feet, foot_frame[AMBULO__MOST_CONTACTS]; /* feet or contacts, and what they act on */
-  double ground_height, up[3];                 /* of two feet */
-  double moment_arm, slant;                    /* of contacts: l, epsilon */
-  int vanishing, *roots;                       /* rows of tau that vanish (doubles) */
+  /* Ground reaction (kernel_contacts.h). */
+  int contacts, contact_frame[AMBULO__MOST_CONTACTS]; /* what they act on */
+  double moment_arm, slant;                           /* l, epsilon */
+  int vanishing, *roots;                              /* rows of tau that vanish (doubles) */
   double mass, fixed_first[3]; /* of the whole body; mass times position of what is fixed */
-  int ground_at; /* on feet: M, F (6), wrenches of the feet (12), height of the centre of mass, T;
-                    on contacts: kernel_contacts.h */
+  int contacts_at;
 
   /* Jacobian pattern, see plan.h. Row of tau i: ancestors of i, i, descendants of i. */
   int *start, *column, *rate_start, *by_qdd;
@@ -122,7 +108,7 @@ struct ambulo__plan {
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */
   int *upper;          /* same length: entry of column i in the row of that ancestor; -1 where
                           that row has none */
-  int foot_factors;    /* the feet's or contacts' factors in jq (plan_pattern.c) */
+  int contact_factors; /* the contacts' factors in jq (plan_contacts.c) */
 
   ambulo__steps steps;
   ambulo__local_plan local;

@@ -127,12 +127,12 @@ static void set_limbs(ambulo__plan *plan, int *open) {
     ambulo__local_step *step = &local->steps[top];
     ambulo__local_step *above = step->parent >= 0 ? &local->steps[step->parent] : NULL;
     step->first = above ? !above->loaded : !rooted;
-    limb->fresh = step->first && !(above && above->feet);
+    limb->fresh = step->first && !(above && above->contacts);
     rooted |= !above;
     if (above) above->loaded = 1;
   }
   for (int k = 0; k < plan->coordinates; k++) {
-    if (local->steps[k].feet) local->steps[k].loaded = 1;
+    if (local->steps[k].contacts) local->steps[k].loaded = 1;
   }
 }
 
@@ -177,7 +177,7 @@ static void set_angles(ambulo__plan *plan) {
 }
 
 /* Frames down to each point, and with ground reaction to each body, to where masses stand, and to
- * what feet and contacts act on.
+ * what contacts act on.
  * Groups of points are in order of frames. */
 static void set_points(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
@@ -193,7 +193,7 @@ static void set_points(ambulo__plan *plan) {
   for (int k = plan->coordinates - 1; k >= 0; k--) {
     int parent = plan->joints[k].parent;
     ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
-    int bears = plan->grounded && (step->body != AMBULO__BODY_NONE || step->feet != 0);
+    int bears = plan->contacts > 0 && (step->body != AMBULO__BODY_NONE || step->contacts != 0);
     if (step->group >= 0 || step->weighs || bears) step->pointed = 1;
     if (!step->pointed || !above) continue;
     above->pointed = 1;
@@ -212,11 +212,11 @@ static void set_point_passes(ambulo__plan *plan) {
     ambulo__local_step *step = &plan->local.steps[k];
     const ambulo__local_step *after = step + 1;
     step->draws = !step->carries_points || step->weighted || step->group >= 0 || step->weighs ||
-                  step->feet != 0 || step->floats;
+                  step->contacts != 0 || step->floats;
     step->levers =
         step->draws || after->joint >= AMBULO__SLIDES || after->offset != AMBULO__OFFSET_NONE;
     int shows = 0, keeps = step->keeps | (step->weighs & 7);
-    if (step->kept || step->feet) shows |= ambulo__shows_place;
+    if (step->kept || step->contacts) shows |= ambulo__shows_place;
     if (step->group >= 0) shows |= ambulo__shows_points;
     if (step->weighs) shows |= ambulo__shows_mass;
     if (step->body != AMBULO__BODY_NONE) shows |= ambulo__shows_body;
@@ -228,7 +228,7 @@ static void set_point_passes(ambulo__plan *plan) {
   }
 }
 
-/* Adds a joint that carries a foot to the path whose first pivot is given. */
+/* Adds a joint that carries a contact to the path whose first pivot is given. */
 static void add_carrier(ambulo__local_plan *local, ambulo__local_step *step, int first_pivot) {
   int pivots = local->pivot_count, slides = step->joint >= AMBULO__SLIDES;
   ambulo__pivot *pivot = pivots > first_pivot ? &local->pivots[pivots - 1] : NULL;
@@ -244,50 +244,50 @@ static void add_carrier(ambulo__local_plan *local, ambulo__local_step *step, int
   if (!slides) step->keeps |= ambulo__shows_origin;
 }
 
-/* The path of the joints that carry these feet: it goes on from the last one that carries them and
- * more. */
-static void add_path(const ambulo__plan *plan, ambulo__local_plan *local, int feet) {
+/* The path of the joints that carry these contacts: it goes on from the last one that carries them
+ * and more. */
+static void add_path(const ambulo__plan *plan, ambulo__local_plan *local, int contacts) {
   int path = local->path_count++, above = path - 1;
-  while (above >= 0 && (local->path[above].feet & feet) != feet) above--;
-  local->path[path] = (ambulo__path){feet, above, local->carrier_count, local->pivot_count};
+  while (above >= 0 && (local->path[above].contacts & contacts) != contacts) above--;
+  local->path[path] = (ambulo__path){contacts, above, local->carrier_count, local->pivot_count};
   for (int k = 0; k < plan->coordinates; k++) {
-    if (plan->joints[k].feet != feet || local->steps[k].vanishes) continue;
+    if (plan->joints[k].contacts != contacts || local->steps[k].vanishes) continue;
     add_carrier(local, &local->steps[k], local->path[path].first_pivot);
   }
-  for (int f = 0; f < plan->feet; f++) {
-    if (feet >> f & 1) local->foot_path[f] = path;
+  for (int f = 0; f < plan->contacts; f++) {
+    if (contacts >> f & 1) local->contact_path[f] = path;
   }
 }
 
-static int has_path(const ambulo__local_plan *local, int feet) {
+static int has_path(const ambulo__local_plan *local, int contacts) {
   for (int i = 0; i < local->path_count; i++) {
-    if (local->path[i].feet == feet) return 1;
+    if (local->path[i].contacts == contacts) return 1;
   }
   return 0;
 }
 
-/* Who carries the feet. Joints come after those that carry them, hence paths do. */
-static void set_ground(ambulo__plan *plan) {
+/* Who carries the contacts. Joints come after those that carry them, hence paths do. */
+static void set_contacts(ambulo__plan *plan) {
   ambulo__local_plan *local = &plan->local;
-  for (int f = 0; f < plan->feet; f++) local->foot_path[f] = -1;
+  for (int f = 0; f < plan->contacts; f++) local->contact_path[f] = -1;
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__joint *joint = &plan->joints[k];
     local->steps[k].vanishes = joint->torque_row == AMBULO__ROW_VANISHES;
   }
   for (int k = 0; k < plan->coordinates; k++) {
-    int feet = plan->joints[k].feet;
-    if (feet == 0 || local->steps[k].vanishes || has_path(local, feet)) continue;
-    add_path(plan, local, feet);
+    int contacts = plan->joints[k].contacts;
+    if (contacts == 0 || local->steps[k].vanishes || has_path(local, contacts)) continue;
+    add_path(plan, local, contacts);
   }
   local->path[local->path_count] = (ambulo__path){0, -1, local->carrier_count, local->pivot_count};
-  for (int f = 0; f < plan->feet; f++) {
-    local->foot[f] = plan->foot_frame[f] - 1;
-    if (local->foot[f] < 0) continue;
-    ambulo__local_step *step = &local->steps[local->foot[f]];
-    local->bare[f] = step->body == AMBULO__BODY_NONE && step->feet == 0;
-    step->feet |= (uint8_t)(1 << f);
+  for (int f = 0; f < plan->contacts; f++) {
+    local->contact_step[f] = plan->contact_frame[f] - 1;
+    if (local->contact_step[f] < 0) continue;
+    ambulo__local_step *step = &local->steps[local->contact_step[f]];
+    local->bare[f] = step->body == AMBULO__BODY_NONE && step->contacts == 0;
+    step->contacts |= (uint8_t)(1 << f);
   }
-  if (plan->contacts > 0 && plan->vanishing > 0) {
+  if (plan->vanishing > 0) {
     local->steps[plan->roots[plan->vanishing - 1] / AMBULO__LANES].floats = 1;
   }
 }
@@ -341,10 +341,10 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
     set_joint(step, &plan->joints[k]);
     if (body >= 0) set_body(step, &plan->body[body]);
   }
-  if (plan->grounded) set_ground(plan);
+  if (plan->contacts > 0) set_contacts(plan);
   set_forks(plan);
   set_stored(local, plan->coordinates);
-  if (plan->grounded) set_masses(plan);
+  if (plan->contacts > 0) set_masses(plan);
   set_limbs(plan, open);
   int shared = set_stems(plan, slots + (int)d * local_slot);
   set_angles(plan);

@@ -104,7 +104,7 @@ typedef struct ambulo__local_step {
   uint8_t keeps;       /* the same, when a gradient follows */
   bool draws;          /* weights come to those of the step after */
   bool levers;         /* and their moment is not that of the step after */
-  bool vanishes;       /* ground reaction: tau is zero, see plan_ground.c */
+  bool vanishes;       /* ground reaction: tau is zero, see plan_contacts.c */
   int parent;          /* step, -1: the world */
   int input;           /* entries of the coordinate in the arrays of the caller */
   int at, above;       /* slots of the frame and of its parent */
@@ -124,8 +124,8 @@ typedef struct ambulo__local_step {
 
   /* ground reaction */
   uint8_t weighs;             /* bits 0 to 2: components of `moment`; 3: `anchored` */
-  uint8_t feet;               /* feet or contacts on this frame, a bit each */
-  bool floats;                /* the last joint that carries the whole body, on contacts */
+  uint8_t contacts;           /* on this frame, a bit each */
+  bool floats;                /* the last joint that carries the whole body */
   double moment[3], anchored; /* b and m of kernel_local_points.h */
 } ambulo__local_step;
 
@@ -152,7 +152,7 @@ typedef struct ambulo__limb {
 /* Sets of contacts that lie one in the other or apart. */
 enum { AMBULO__MOST_PATHS = 2 * AMBULO__MOST_CONTACTS - 1 };
 
-/* A joint that carries a foot or contact, and where its axis in world axes stands (a slider's with
+/* A joint that carries a contact, and where its axis in world axes stands (a slider's with
  * its sign).
  */
 typedef struct ambulo__carrier {
@@ -168,9 +168,9 @@ typedef struct ambulo__pivot {
   int count;
 } ambulo__pivot;
 
-/* Joints, from the root on, that carry the same feet or contacts and whose tau does not vanish. */
+/* Joints, from the root on, that carry the same contacts and whose tau does not vanish. */
 typedef struct ambulo__path {
-  int feet;          /* a bit each */
+  int contacts;      /* a bit each */
   int above;         /* the path that it goes on from, which carries more; -1: none */
   int first_carrier; /* up to those of the next path */
   int first_pivot;
@@ -187,9 +187,10 @@ typedef struct ambulo__local_plan {
   int branched;           /* several joints stand on the world */
   int world_group;        /* points fixed to the world, -1: none */
   double fixed_moment[3]; /* ground reaction: b of the world, without the bodies fixed to it */
-  /* Ground reaction: step of the frame that the wrench of a foot or contact acts on, -1: none;
+  /* Ground reaction: step of the frame that the wrench of a contact acts on, -1: none;
    * whether nothing else is in its load yet; the last path above it, -1: none. */
-  int foot[AMBULO__MOST_CONTACTS], bare[AMBULO__MOST_CONTACTS], foot_path[AMBULO__MOST_CONTACTS];
+  int contact_step[AMBULO__MOST_CONTACTS], bare[AMBULO__MOST_CONTACTS];
+  int contact_path[AMBULO__MOST_CONTACTS];
   ambulo__carrier *carrier;
   ambulo__pivot *pivots;
   ambulo__path path[AMBULO__MOST_PATHS + 1]; /* those above before those below, then the ends */

@@ -11,14 +11,7 @@
  * another joint, as an oblique one, they keep their rows, so that kernels find those without
  * entries first among the ancestors.)
  *
- * With ground reaction, (dM, dF) the rows of the root wrench and n . dF by qdd over m that of the
- * centre of mass's height by q, the split (kernel_jacobian_ground.h) is made of products with
- * factors that change from node to node:
- *   tau_i:      its entries, + 6 factors on (dM, dF), + one on n . dF by qdd
- *   F_0, F_1:   a_f dF -+ g (n . dF) +- g' (n . dF by qdd),   g and g' along D
- *   T_f:        6 factors on (dM, dF)
- * The feet's factors are a_0, a_1, g (3), g' (3), those of T_0 and those of T_1. Contacts:
- * plan_contacts.c.
+ * Contacts: plan_contacts.c.
  */
 #include "mechanics/plan_build.h"
 
@@ -48,7 +41,7 @@ static void write_chain(const ambulo__plan *plan, int coordinate, int *out) {
 static int follows_force(const ambulo__plan *plan, int k) {
   const ambulo__joint *joint = &plan->joints[k];
   int above = parent_of(plan, k);
-  if (plan->grounded || joint->revolute || joint->turned) return 0;
+  if (plan->contacts > 0 || joint->revolute || joint->turned) return 0;
   if (above >= 0 && plan->joints[above].torque_row != AMBULO__ROW_FOLLOWS) return 0;
   for (int i = 0; i < plan->bodies; i++) {
     if (!is_ancestor(plan, k, plan->body[i].frame - 1)) return 0;
@@ -82,22 +75,6 @@ static void count_entries(ambulo__plan *plan, size_t *pairs) {
   plan->dynamic_count = count;
   for (int i = 0; i < plan->points; i++) count += 3 * depth_of(plan, plan->point[i].frame - 1);
   plan->count = count;
-}
-
-/* Behind the entries. */
-static void place_factors(ambulo__plan *plan) {
-  if (!plan->grounded) return;
-  if (plan->contacts > 0) {
-    ambulo__plan_contact_factors(plan);
-    return;
-  }
-  for (int k = 0; k < plan->coordinates; k++) {
-    if (plan->joints[k].torque_row != AMBULO__ROW_REACTS) continue;
-    plan->joints[k].factors = plan->count;
-    plan->count += AMBULO__TAU_FACTORS;
-  }
-  plan->foot_factors = plan->count;
-  plan->count += AMBULO__FOOT_FACTORS;
 }
 
 /* Rows that depend on all coordinates. */
@@ -191,56 +168,19 @@ ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   fill_rate_starts(plan);
   fill_ancestors(plan);
   fill_mass_entries(plan);
-  place_factors(plan);
+  if (plan->contacts > 0) ambulo__plan_contact_factors(plan);
   return AMBULO_OK;
 }
 
-/* Adds the parts that n . dF has, or n . dF by qdd. */
-static int add_normal(const ambulo__plan *plan, int by_acceleration, int times, double factor,
-                      ambulo__row_part *part) {
-  int count = 0;
-  for (int k = 0; k < 3; k++) {
-    if (plan->up[k] == 0) continue;
-    part[count++] =
-        (ambulo__row_part){plan->coordinates + 3 + k, by_acceleration, times, factor * plan->up[k]};
-  }
-  return count;
-}
-
-static int foot_force_parts(const ambulo__plan *plan, int foot, int k, ambulo__row_part *part) {
-  int at = plan->foot_factors, sign = foot ? -1 : 1, count = 1;
-  part[0] = (ambulo__row_part){plan->coordinates + 3 + k, 0, at + factor_share + foot, 1};
-  count += add_normal(plan, 0, at + factor_shear + k, -sign, part + count);
-  return count + add_normal(plan, 1, at + factor_fall + k, sign, part + count);
-}
-
-/* Rows of the feet and of the centre of mass, the first of which is row 0 here. */
-static int ground_parts(const ambulo__plan *plan, int row, ambulo__row_part *part) {
-  int foot = row / 4, k = row % 4;
-  if (row >= 8) { /* a step of q_j moves it as qdd_j accelerates it */
-    part[0] = (ambulo__row_part){plan->coordinates + 3 + k, 1, -1, 1 / plan->mass};
-    return 1;
-  }
-  if (k < 3) return foot_force_parts(plan, foot, k, part);
-  return ambulo__plan_add_wrench(plan, plan->foot_factors + factor_twist + 6 * foot, part);
-}
-
-/* (W.J) which factors a row of the Jacobian has */
 int ambulo__plan_parts(const ambulo__plan *plan, int row,
                        ambulo__row_part part[AMBULO__MOST_PARTS]) {
-  int feet = ambulo__plan_first_foot_row(plan), count = 1;
   if (plan->contacts > 0) return ambulo__plan_contact_parts(plan, row, part);
-  if (row >= feet) return ground_parts(plan, row - feet, part);
   part[0] = (ambulo__row_part){row, 0, -1, 1};
   if (row >= plan->coordinates) return 1;
   const ambulo__joint *joint = &plan->joints[row];
-  if (joint->torque_row == AMBULO__ROW_FOLLOWS) { /* its axis is one of the world frame */
+  if (joint->torque_row == AMBULO__ROW_FOLLOWS) /* its axis is one of the world frame */
     part[0] = (ambulo__row_part){plan->coordinates + 3 + joint->axis, 0, -1, joint->sign};
-  } else if (joint->torque_row == AMBULO__ROW_REACTS) {
-    count += ambulo__plan_add_wrench(plan, joint->factors, part + count);
-    count += add_normal(plan, 1, joint->factors + 6, 1, part + count);
-  }
-  return count;
+  return 1;
 }
 
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan) {

@@ -61,7 +61,7 @@ static void enlarge(size_t *used, int at, int entries) {
 /* Motions of the joints, to which ground reaction comes back, and sums over subtrees where they are
  * stored; masses are constants. */
 static void place_jacobian(ambulo__plan *plan, size_t *used) {
-  const int motion = 18, kept = plan->grounded;
+  const int motion = 18, kept = plan->contacts > 0;
   plan->frames[0].subtree_at = take(used, AMBULO__SUBTREE);
   int motions = (int)*used;
   for (int k = 0; k < plan->coordinates; k++) {
@@ -97,8 +97,6 @@ void ambulo__plan_place(ambulo__plan *plan) {
     plan->joints[k].still = is_still(plan, &plan->joints[k]);
   }
   find_last_carried(plan);
-  if (plan->grounded) {
-    plan->ground_at = take(used, plan->contacts > 0 ? ambulo__plan_contact_entries(plan) : 20);
-  }
+  if (plan->contacts > 0) plan->contacts_at = take(used, ambulo__plan_contact_entries(plan));
   place_jacobian(plan, used);
 }

@@ -9,17 +9,12 @@ int ambulo__plan_points(const ambulo__plan *plan) {
   return plan->points;
 }
 
-int ambulo__plan_is_grounded(const ambulo__plan *plan) {
-  return plan->grounded;
-}
-
 int ambulo__plan_contacts(const ambulo__plan *plan) {
   return plan->contacts;
 }
 
 int ambulo__plan_ground_entries(const ambulo__plan *plan) {
-  if (plan->contacts > 0) return 3 + 4 * plan->contacts;
-  return plan->grounded ? AMBULO__GROUND_ENTRIES : 0;
+  return plan->contacts > 0 ? 3 + 4 * plan->contacts : 0;
 }
 
 int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {

@@ -9,8 +9,9 @@ static int slot_of(const ambulo__channels *c, int channel) {
   int torque = channel - ambulo__channel_tau(c, 0);
   int force = channel - ambulo__channel_foot_force(c, 0, 0);
   if (torque >= 0 && torque < c->coordinates) return torque;
-  if (force < 0 || force >= c->slot_rows * c->slots || force % c->slot_rows >= 3) return -1;
-  return c->coordinates + force / c->slot_rows * 3 + force % c->slot_rows;
+  if (force < 0 || force >= AMBULO__SLOT_CHANNELS * c->slots || force % AMBULO__SLOT_CHANNELS >= 3)
+    return -1;
+  return c->coordinates + force / AMBULO__SLOT_CHANNELS * 3 + force % AMBULO__SLOT_CHANNELS;
 }
 
 ambulo_status ambulo__channel_slopes_create(const ambulo_problem *p, ambulo__pool *pool,

@@ -249,8 +249,8 @@
  * yardstick_72 +18 %. 0 (none): +12 % iterations, +41 % CPU. T: pipeline (0); refine. */
 #define AMBULO__COARSE_INTERVALS 24
 #define AMBULO__COARSEST_INTERVALS 8
-/* intervals of a coarse grid for each knot interval that its trajectory keeps. Over 33 problems,
- * those of tests/two_step among them, 1030 iterations; 1: +30 %; 3: +4 %; in proportion: +62 %
+/* intervals of a coarse grid for each knot interval that its trajectory keeps. Over 33 problems
+ * of an earlier version, 1030 iterations; 1: +30 %; 3: +4 %; in proportion: +62 %
  * (sit_to_stand 509 for 52, walk_stop 112 for 42). T: refine. */
 #define AMBULO__COARSE_NODES_A_KNOT 2
 

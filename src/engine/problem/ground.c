@@ -1,12 +1,6 @@
 /* problem/ground.c - what the kernels are told about the ground at given times.
  *
- * Per block of 8 times [AMBULO__GROUND_ENTRIES][8] (mechanics/plan.h): share a_0 of foot 0, D in
- * world axes = D_f f + D_l l, kappa. Times beyond the last (padding) get a_0 = 1, D = 0,
- * kappa = 0. Centre of pressure of foot j, from the ZMP p (contact/loading.h):
- *
- *     c_0 = p + a_1 D,    c_1 = p - a_0 D
- *
- * Where contacts share the load: [3 + 4 K][8], a point o near them, and for each of K slots its
+ * Per block of 8 times [3 + 4 K][8]: a point o near them, and for each of K slots its
  * weight and centre (contact/contact_load.h, mechanics/kernel_contacts.h). o is the mean of the
  * centres that are loaded.
  */
@@ -15,7 +9,6 @@
 
 #include "contact/contact_load.h"
 #include "contact/effector.h"
-#include "contact/loading.h"
 
 #include <math.h>
 
@@ -28,18 +21,6 @@ typedef struct fill {
 
 static void set(double *lane, int entry, double value) {
   lane[(size_t)entry * AMBULO__LANES] = value;
-}
-
-static void fill_split(const fill *f, int k, double time) {
-  const ambulo_problem *p = f->problem;
-  const ambulo_model *m = p->model;
-  ambulo__load load = {{1.0, 0.0}, {0.0, 0.0}};
-  double *lane = f->ground + ambulo__lane_index(k, AMBULO__GROUND_ENTRIES, 0);
-  if (isfinite(time)) load = ambulo__load_at(&p->definition, f->outlines, time);
-  set(lane, 0, load.share[0]);
-  for (int axis = 0; axis < 3; axis++)
-    set(lane, 1 + axis, load.apart[0] * m->forward[axis] + load.apart[1] * m->left[axis]);
-  set(lane, 4, isfinite(time) ? p->definition.ground_reaction.shear : 0.0);
 }
 
 static void fill_contacts(const fill *f, int k, double time) {
@@ -74,25 +55,10 @@ ambulo_status ambulo__ground_fill(const ambulo_problem *p, const ambulo_allocato
     ambulo__free(a, outlines);
     return AMBULO_E_MEMORY;
   }
-  int shared = p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED;
-  for (int k = 0; k < (int)lanes; k++)
-    (shared ? fill_contacts : fill_split)(&f, k, k < count ? times[k] : (double)NAN);
+  for (int k = 0; k < (int)lanes; k++) fill_contacts(&f, k, k < count ? times[k] : (double)NAN);
   ambulo__free(a, outlines);
   *ground = f.ground;
   return AMBULO_OK;
-}
-
-/* (W.6) c_0 = p + a_1 D, c_1 = p - a_0 D */
-void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop) {
-  const double *lane = ground + ambulo__lane_index(node, AMBULO__GROUND_ENTRIES, 0);
-  double share[2] = {lane[0], 1.0 - lane[0]};
-  for (int foot = 0; foot < 2; foot++) {
-    double factor = foot == 0 ? share[1] : -share[0];
-    for (int axis = 0; axis < 3; axis++) {
-      double apart = lane[(size_t)(1 + axis) * AMBULO__LANES];
-      cop[3 * foot + axis] = share[foot] > 0.0 ? zmp[axis] + factor * apart : (double)NAN;
-    }
-  }
 }
 
 /* adds what the contact of a slot does about the origin of its surface, the same for both of a foot
@@ -147,12 +113,4 @@ ambulo__pressure ambulo__contact_pressure(const ambulo_problem *p,
 
 const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_problem *p) {
   return &p->definition.ground_reaction;
-}
-
-double ambulo_problem_load_share(const ambulo_problem *p, int foot, double time) {
-  if (!p->channels.slots || foot < 0 || foot >= p->channels.feet) return 0.0;
-  if (p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED) return (double)NAN;
-  ambulo__foot_outline outlines[2] = {ambulo__foot_outline_of(p->model, 0),
-                                      ambulo__foot_outline_of(p->model, 1)};
-  return ambulo__load_at(&p->definition, outlines, time).share[foot];
 }

@@ -98,7 +98,7 @@ void ambulo__held_gather(ambulo_workspace *workspace, int block) {
     const double *window =
         p->told + ambulo__lane_index(node, ambulo__told_entries(p), p->channels.devices);
     ambulo__holds_keep(p->holds, q, q + d8, q + 2 * d8, window, node_kept(workspace, node));
-    if (ambulo__plan_is_grounded(p->plan)) gather_node(workspace, node);
+    if (ambulo__plan_contacts(p->plan)) gather_node(workspace, node);
   }
 }
 
@@ -106,7 +106,7 @@ void ambulo__held_add_output(const ambulo_workspace *workspace, int node, int ou
                              double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const int d = p->coordinates, row = output - d;
-  int torque = row < 0, wrench = row >= 0 && row < 6 && !ambulo__plan_is_grounded(p->plan);
+  int torque = row < 0, wrench = row >= 0 && row < 6 && !ambulo__plan_contacts(p->plan);
   if (!torque && !wrench) return;
   ambulo__hold_adjoints x = {.coordinate = torque ? output : -1,
                              .q = gradient,

@@ -78,14 +78,10 @@ static const ambulo__member clearance[] = {
 TABLE("constraints.clearance", clearance);
 #undef OF
 
-static const char *const reactions[] = {"none", "two_step", "shared"};
-static const char *const transfers[] = {"early", "linear", "smooth"};
+static const char *const reactions[] = {"none", "shared"};
 #define OF ambulo_ground_reaction
 static const ambulo__member ground_reaction[] = {
     {CHOICE("kind", kind, reactions, AMBULO_REACTION_NONE, AMBULO_REACTION_NONE), APART},
-    {CHOICE("transfer", transfer, transfers, AMBULO_TRANSFER_EARLY, AMBULO_TRANSFER_EARLY)},
-    {NUMBER("exponent", exponent, 1.0, 10.0, 1.4), 0, AMBULO__RATIO},
-    {NUMBER("shear", shear, 0.0, 2.0, 1.0), 0, AMBULO__RATIO, "shear between the feet"},
     {NUMBER("friction", friction, 0.0, 10.0, 0.5), OFF, AMBULO__RATIO, "friction"},
     {NUMBER("free_moment", free_moment, 0.0, 10.0, 0.02), OFF | LENGTH, AMBULO__SHORT_LENGTH,
      "free moment allowed"},

@@ -8,7 +8,6 @@
 #include "problem/nlp.h"
 #include "base/sized.h"
 
-#include "base/vector.h"
 #include "contact/load_profile.h"
 #include "contact/effector.h"
 
@@ -67,53 +66,15 @@ static void zero_moment_point(const double *n, double height, const double *wren
     zmp[i] = normal > 0.0 ? (cross[i] + height * f[i]) / normal : (double)NAN;
 }
 
-static void zmp_at(const ambulo_problem *p, const dense *d, int channels, int k, double *zmp) {
-  double wrench[6];
-  for (int c = 0; c < 6; c++) {
-    int channel = ambulo__channel_moment(&p->channels, c);
-    wrench[c] = d->channel[ambulo__lane_index(k, channels, channel)];
-  }
-  zero_moment_point(ambulo_model_up(p->model), p->definition.ground_height, wrench, zmp);
-}
-
 static void fill_zmp(const ambulo_problem *p, const dense *d, int channels, int count,
                      double *zmp) {
-  for (int k = 0; k < count; k++) zmp_at(p, d, channels, k, zmp + 3 * k);
-}
-
-/* moment about the world's origin: of the pressure's centre, which follows from the zero-moment
- * point of (16'), with what turns about the normal there */
-static void split_moment(const ambulo_problem *p, const dense *d, int channels, int k, int foot,
-                         const double zmp[3], double moment[3]) {
-  const double *up = ambulo_model_up(p->model);
-  double centers[6], force[4];
-  ambulo__pressure_centers(d->ground, k, zmp, centers);
-  for (int i = 0; i < 4; i++) {
-    int channel = ambulo__channel_foot_force(&p->channels, foot, i);
-    force[i] = d->channel[ambulo__lane_index(k, channels, channel)];
-  }
-  for (int i = 0; i < 3; i++) moment[i] = force[3] * up[i];
-  if (isfinite(centers[3 * foot])) ambulo__add_cross(centers + 3 * foot, force, 1.0, moment);
-}
-
-/* forces, centres of pressure and moments of the feet: of the two-step split */
-static void fill_split(const ambulo_problem *p, const dense *d, int channels, int count,
-                       const ambulo_motion *motion) {
-  for (int at = 0; at < 2 * count; at++) {
-    int k = at / 2, foot = at % 2;
-    for (int axis = 0; axis < 4; axis++) {
-      int channel = ambulo__channel_foot_force(&p->channels, foot, axis);
-      double value = d->channel[ambulo__lane_index(k, channels, channel)];
-      if (axis < 3 && motion->grf) motion->grf[3 * at + axis] = value;
-      if (axis == 3 && motion->free_moment) motion->free_moment[at] = value;
-    }
-  }
   for (int k = 0; k < count; k++) {
-    double zmp[3];
-    zmp_at(p, d, channels, k, zmp);
-    if (motion->cop) ambulo__pressure_centers(d->ground, k, zmp, motion->cop + 6 * k);
-    for (int foot = 0; motion->grf_moment && foot < 2; foot++)
-      split_moment(p, d, channels, k, foot, zmp, motion->grf_moment + 6 * k + 3 * foot);
+    double wrench[6];
+    for (int c = 0; c < 6; c++) {
+      int channel = ambulo__channel_moment(&p->channels, c);
+      wrench[c] = d->channel[ambulo__lane_index(k, channels, channel)];
+    }
+    zero_moment_point(ambulo_model_up(p->model), p->definition.ground_height, wrench, zmp + 3 * k);
   }
 }
 
@@ -161,33 +122,19 @@ static void fill_none(int numbers, double *out) {
   for (int i = 0; out && i < numbers; i++) out[i] = NAN;
 }
 
-static void fill_no_patches(const ambulo_problem *p, int count, const ambulo_motion *motion) {
-  int patches = ambulo_model_patch_count(p->model);
-  fill_none(3 * count * patches, motion->patch_force);
-  fill_none(3 * count * patches, motion->patch_cop);
-  fill_none(count * patches, motion->patch_free_moment);
-  fill_none(3 * count * patches, motion->patch_moment);
-}
-
 static ambulo_status fill_effectors(const ambulo_problem *p, const dense *d,
                                     const ambulo_allocator *a, const double *times, int count,
                                     const ambulo_motion *motion) {
-  int feet = ambulo_model_foot_count(p->model);
-  switch (p->definition.ground_reaction.kind) {
-  case AMBULO_REACTION_TWO_STEP:
-    fill_split(p, d, ambulo__channel_count(&p->channels), count, motion);
-    fill_no_patches(p, count, motion);
-    return AMBULO_OK;
-  case AMBULO_REACTION_SHARED:
-    return fill_contacts(p, d, a, times, count, motion);
-  case AMBULO_REACTION_NONE:
-    break;
-  }
+  int feet = ambulo_model_foot_count(p->model), patches = ambulo_model_patch_count(p->model);
+  if (p->channels.slots) return fill_contacts(p, d, a, times, count, motion);
   fill_none(3 * count * feet, motion->grf);
   fill_none(3 * count * feet, motion->cop);
   fill_none(count * feet, motion->free_moment);
   fill_none(3 * count * feet, motion->grf_moment);
-  fill_no_patches(p, count, motion);
+  fill_none(3 * count * patches, motion->patch_force);
+  fill_none(3 * count * patches, motion->patch_cop);
+  fill_none(count * patches, motion->patch_free_moment);
+  fill_none(3 * count * patches, motion->patch_moment);
   return AMBULO_OK;
 }
 

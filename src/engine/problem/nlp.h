@@ -155,9 +155,6 @@ ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, doubl
  * ambulo__free_aligned. *ground is NULL without ground reaction. E_MEMORY. */
 ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_allocator *allocator,
                                   const double *times, int count, double **ground);
-/* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN
- * for a foot in the air. */
-void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
 /* What a foot or a patch is given: force, centre of pressure (NaN where the ground does not push),
  * moment about the normal there, moment about the world's origin; N, m, N m. */
 typedef struct ambulo__pressure {

@@ -13,7 +13,7 @@
 #include <string.h>
 
 int ambulo__wrench_entries(const ambulo_problem *p) {
-  return ambulo__plan_is_grounded(p->plan) ? 6 * p->coordinates : 0;
+  return ambulo__plan_contacts(p->plan) ? 6 * p->coordinates : 0;
 }
 
 void ambulo__wrench_gather(ambulo_workspace *workspace, int block) {
@@ -86,7 +86,7 @@ static void add_entries(const ambulo_workspace *workspace, int node, int row, do
 static double *wrench_factor(const ambulo_problem *p, const ambulo__row_part *part,
                              wrench_factors *f) {
   int row = part->row - p->coordinates;
-  if (row < 0 || row >= 6 || !ambulo__plan_is_grounded(p->plan)) return NULL;
+  if (row < 0 || row >= 6 || !ambulo__plan_contacts(p->plan)) return NULL;
   if (part->by_acceleration) return &f->by_acceleration[row - 3];
   return row < 3 ? &f->moment[row] : &f->force[row - 3];
 }

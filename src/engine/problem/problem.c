@@ -107,8 +107,6 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   }
   status = ambulo__zmp_rows(&context, &p->table, diagnostics);
   if (status) return status;
-  if (d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP)
-    ambulo__reaction_rows(&context, &p->table);
   if (d->ground_reaction.kind == AMBULO_REACTION_SHARED) {
     ambulo__sharing_rows(&context, &p->table);
     ambulo__flight_rows(&context, &p->table);
@@ -157,24 +155,14 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
   if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
     return ambulo__plan_create(p->model, &p->allocator, &p->plan);
   const ambulo_ground_reaction *r = &d->ground_reaction;
-  int feet = ambulo_model_foot_count(p->model), is_split = r->kind == AMBULO_REACTION_TWO_STEP;
-  const char *name = ambulo_model_name(p->model);
-  if (is_split && feet != 2)
-    return REFUSE(diagnostics,
-                  "ground_reaction: kind two_step, but the model '%s' has %d feet; expected 2",
-                  name, feet);
-  p->channels.feet = p->channels.slots = feet;
-  p->channels.slot_rows = 4;
-  if (is_split)
-    return ambulo__plan_create_grounded(p->model, d->ground_height, &p->allocator, &p->plan);
   ambulo__slots slots = ambulo__slots_of(d);
   if (slots.count < 1 || slots.count > AMBULO__MOST_SLOTS)
     return REFUSE(diagnostics,
                   "ground_reaction: the feet of '%s' and its patches in contact press on the "
                   "surroundings with %d links (toes behind a joint count); expected 1 to %d",
-                  name, slots.count, AMBULO__MOST_SLOTS);
+                  ambulo_model_name(p->model), slots.count, AMBULO__MOST_SLOTS);
+  p->channels.feet = ambulo_model_foot_count(p->model);
   p->channels.slots = slots.count;
-  p->channels.slot_rows = 6;
   return ambulo__plan_create_contacts(p->model, slots.link, slots.count, r->moment_arm, r->slant,
                                       &p->allocator, &p->plan);
 }

@@ -326,7 +326,7 @@ static void device_effort_form(const ambulo_term *term, const ambulo__term_conte
 
 static const char *lacks_forces(const ambulo_problem_definition *d) {
   return d->ground_reaction.kind == AMBULO_REACTION_NONE
-             ? "no forces on feet without ground_reaction; expected kind shared or two_step"
+             ? "no forces on feet without ground_reaction; expected kind shared"
              : NULL;
 }
 

@@ -1,21 +1,11 @@
 /* solver/dense_rows.c - violations of rows between the nodes, as samples.
  *
- * Rows on unknowns and rows that join the two ends are the same on every grid and left out. The
- * centre of pressure of a foot counts by the share a of the load that it carries: a times the row.
+ * Rows on unknowns and rows that join the two ends are the same on every grid and left out.
  */
 #include "solver/audit.h"
 #include "solver/dense.h"
 
 #include <math.h>
-
-/* of the foot that the row is about, from what the kernels are told (problem/ground.c): rows that
- * count by load come with ground reaction only; where contacts share the load they are about
- * moments and have the load in them */
-static double load_share(const ambulo_problem *fine, const ambulo__table_row *row) {
-  if (fine->definition.ground_reaction.kind == AMBULO_REACTION_SHARED) return 1.0;
-  double first = fine->ground[ambulo__lane_index(row->node, AMBULO__GROUND_ENTRIES, 0)];
-  return row->subject == fine->model->feet[0].name ? first : 1.0 - first;
-}
 
 /* names of obstacles belong to the problem that is judged, those of the finer one go with it */
 static const char *detail_of(const ambulo__dense *dense, const ambulo__table_row *row) {
@@ -38,7 +28,6 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
                                  .value = ambulo__row_violation(fine, r, dense->row_value[r]),
                                  .tolerance = rule->tolerance};
   if (rule->of_limit) sample.tolerance *= ambulo__dense_limit_size(fine, row);
-  if (rule->by_load) sample.value *= load_share(fine, row);
   visit(user, &sample);
 }
 

@@ -1,8 +1,8 @@
 /* solver/dense_rules.c - the table of dense_rules.h.
  *
- * Tolerances: 1 mm, 0.005 rad, 0.02 body weights, 2 % of a speed or torque limit. Centres of
- * pressure count by the share of the load that the foot carries, as (17') counts zero-moment points
- * by the force: 5 cm under 0.4 % of the weight are 0.2 mm.
+ * Tolerances: 1 mm, 0.005 rad, 0.02 body weights, 2 % of a speed or torque limit. Rows
+ * on centres of pressure have the load in them, as (17') counts zero-moment points by the force:
+ * 5 cm under 0.4 % of the weight are 0.2 mm.
  *
  * Orders: of what lies between two nodes that both hold a row, and beside events, on the safe side
  * of what bench/bench_dense.c sees on the shipped problems, so that what is foretold from them
@@ -17,39 +17,32 @@ enum { SLIP, FORCE };
 #define REMEDY(name) AMBULO__REMEDY_##name
 
 static const ambulo__dense_rule rules[AMBULO__DENSE_RULES] = {
-    /* kind, measure, tolerance; order_alone, order_both, order_landing; of_limit, by_load,
-     * at_events
-     */
-    {AMBULO__KIND_SLIP, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 0,
+    /* kind, measure, tolerance; order_alone, order_both, order_landing; of_limit, at_events */
+    {AMBULO__KIND_SLIP, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_GROUND_PENETRATION, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_FOOT_STRIKE, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CONTACT, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CONTACT, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.5, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CLEARANCE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CLEARANCE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_ZMP, AMBULO__METRES, 0.001, 0.0, 0.0, 1.0, 0, 1, REMEDY(TRANSFER)},
+    {AMBULO__KIND_NORMAL_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_PRESSURE, AMBULO__METRES, 0.001, 1.0, 0.0, 0.75, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FRICTION, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FREE_MOMENT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FLIGHT, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_FLIGHT, AMBULO__METRES, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_JOINT_LIMIT, AMBULO__RADIANS, 0.005, 1.5, 0.0, 1.0, 0, 0, REMEDY(CONTROL_POINTS)},
+    {AMBULO__KIND_JOINT_LIMIT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 0, REMEDY(CONTROL_POINTS)},
+    {AMBULO__KIND_SPEED_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.5, 0.0, 1.0, 1, 0, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_TORQUE_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.0, 0.0, 1.0, 1, 0,
      REMEDY(TOLERANCE)},
-    {AMBULO__KIND_GROUND_PENETRATION, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_FOOT_STRIKE, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_CONTACT, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_CONTACT, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.5, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_CLEARANCE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_CLEARANCE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_ZMP, AMBULO__METRES, 0.001, 0.0, 0.0, 1.0, 0, 0, 1, REMEDY(TRANSFER)},
-    {AMBULO__KIND_NORMAL_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 1,
-     REMEDY(TOLERANCE)},
-    {AMBULO__KIND_PRESSURE, AMBULO__METRES, 0.001, 1.0, 0.0, 0.75, 0, 1, 1, REMEDY(TOLERANCE)},
-    {AMBULO__KIND_FRICTION, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
-    {AMBULO__KIND_FREE_MOMENT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
-    {AMBULO__KIND_FLIGHT, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_FLIGHT, AMBULO__METRES, 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_JOINT_LIMIT, AMBULO__RADIANS, 0.005, 1.5, 0.0, 1.0, 0, 0, 0,
-     REMEDY(CONTROL_POINTS)},
-    {AMBULO__KIND_JOINT_LIMIT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 0, 0,
-     REMEDY(CONTROL_POINTS)},
-    {AMBULO__KIND_SPEED_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.5, 0.0, 1.0, 1, 0, 0,
-     REMEDY(TOLERANCE)},
-    {AMBULO__KIND_TORQUE_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.0, 0.0, 1.0, 1, 0, 0,
-     REMEDY(TOLERANCE)},
-    {AMBULO__KIND_COLLISION, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
-    {AMBULO__KIND_OBSTACLE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
-    {AMBULO__KIND_REACH, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {AMBULO__KIND_TRACKING_TUBE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
-    {AMBULO__KIND_TRACKING_TUBE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_COLLISION, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_OBSTACLE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_REACH, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_TRACKING_TUBE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_TRACKING_TUBE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
 };
 
 const ambulo__dense_rule *ambulo__dense_rule_at(int index) {

@@ -27,7 +27,6 @@ typedef struct ambulo__dense_rule {
    * power, where it begins to this one. */
   double order_landing;
   int of_limit;  /* 1: the tolerance is a share */
-  int by_load;   /* 1: counted by the share of the load that the foot carries */
   int at_events; /* 1: its rows change when a contact begins or ends */
   ambulo__dense_remedy remedy;
 } ambulo__dense_rule;

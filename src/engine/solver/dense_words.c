@@ -65,12 +65,11 @@ static const char *remedy_of(const wording *w, const ambulo__dense_rule *rule, c
            "trajectory has room for more nodes");
     return again;
   case AMBULO__REMEDY_TRANSFER:
-    append(
-        advice, AMBULO__DENSE_LINE_SIZE,
-        "more intervals do not help: where contacts change the support region jumps, and the "
-        "zero-moment point crosses over between two nodes; with ground_reaction (kind: "
-        "shared or two_step) the load passes gradually, and each foot has a centre of pressure of "
-        "its own");
+    append(advice, AMBULO__DENSE_LINE_SIZE,
+           "more intervals do not help: where contacts change the support region jumps, and the "
+           "zero-moment point crosses over between two nodes; with ground_reaction (kind: "
+           "shared) the load passes gradually, and each foot has a centre of pressure of "
+           "its own");
     return more_do_not_help;
   case AMBULO__REMEDY_NONE:
     break;

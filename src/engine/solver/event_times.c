@@ -17,7 +17,6 @@
 #include "solver/partials.h"
 
 #include "base/instant.h"
-#include "contact/loading.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,17 +26,6 @@ typedef struct moving_event {
   const ambulo__event_map *map;
   double *node_rate, *knot_rate;
 } moving_event;
-
-void ambulo__partials_of_share(const ambulo__stationary *s, int node, double by_share,
-                               ambulo__partials *partials) {
-  const ambulo_problem *p = s->problem;
-  if (by_share == 0.0 || !p->before) return;
-  ambulo__share_slopes slopes = ambulo__load_slopes_at(&p->definition, p->times[node]);
-  if (slopes.begins < 0) return;
-  partials->node_time[node] += by_share * slopes.by_time;
-  partials->contact_time[2 * slopes.begins] += by_share * slopes.by_begin;
-  partials->contact_time[2 * slopes.ends + 1] += by_share * slopes.by_end;
-}
 
 static double pull_of_node(const moving_event *m, int node) {
   const ambulo_problem *p = m->s->problem;

@@ -1,17 +1,12 @@
 /* solver/force_rows.c - where the ground's force may act and how large it may be
- * (contact/zmp.c, reaction.c).
+ * (contact/zmp.c).
  *
  * With (M, F) the root wrench, W = m g, phi = n.F / W, z the zero-moment point, a side (a, b), k:
  *
- *     zmp, pressure   c = [a (n.F z_f) + b (n.F z_l) - k n.F] / W      dc/dk = -phi
+ *     zmp             c = [a (n.F z_f) + b (n.F z_l) - k n.F] / W      dc/dk = -phi
  *                     n.F z holds h F: dc/dh = (a f + b l) . F / W
  *     support side    k = n_s . v + margin: support_side.c;            dc/dmargin = -phi
- *     pressure        k = (a, b) . (place_j - s_j) + side of the box,  s_0 = a_1 D, s_1 = -a_0 D,
- *                     D = place_0 - place_1 + constant while both feet are loaded;
- *                     dk/da_0 = (a, b) . D, a_0 with its times: event_times.c
  *     normal force    c = phi - least                                  dc/dleast = -1
- *     friction        c = mu n.F / W -+ e.F / W                        dc/dmu = n.F / W
- *     free moment     c = bound +- T / W                               dc/dbound = 1
  *
  * and where contacts share the load sharing_rows.c. All but their constants are measured in W: dc/d
  * ln m = -(c - constant).
@@ -20,8 +15,6 @@
 #include "base/vector.h"
 
 #include "contact/flight.h"
-#include "contact/gait.h"
-#include "contact/loading.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
@@ -79,76 +72,6 @@ static void add_zmp(const force_row *p, int planar, ambulo__partials *partials) 
   ambulo__support_side(p->s, p->outlines, &side, p->pull, partials);
 }
 
-/* part = (t - strike) / (flat - strike) when these move */
-static void add_rolling(const force_row *p, const ambulo_contact *contact, const ambulo__roll *roll,
-                        double by_part, ambulo__partials *partials) {
-  int own = (int)(contact - p->s->problem->definition.contacts);
-  if (!(roll->duration > 0.0)) return;
-  double pull = by_part / roll->duration;
-  partials->node_time[p->row->node] += pull;
-  partials->contact_time[2 * roll->begins] -= pull * (1.0 - roll->part);
-  partials->contact_time[2 * own + 1] -= pull * roll->part;
-}
-
-/* which foot's box, and the numbers of the side that faces the row's normal */
-static void add_box(const force_row *p, const ambulo__support_row *side,
-                    const ambulo_contact *contact, double by_side, ambulo__partials *partials) {
-  ambulo_ground_reaction *r = &partials->reaction;
-  int front = side->normal[0] < 0.0;
-  if (fabs(side->normal[1]) > fabs(side->normal[0])) {
-    r->pressure_width -= by_side; /* k = +-y - width */
-    return;
-  }
-  double by_end = front ? -by_side : by_side; /* k = x + box_0, -(x + box_1) */
-  if (contact->mode == AMBULO_CONTACT_FLAT) {
-    r->flat_pressure[front] += by_end;
-  } else if (contact->mode == AMBULO_CONTACT_TOE) {
-    r->toe_pressure[front] += by_end;
-  } else {
-    const ambulo_problem_definition *d = &p->s->problem->definition;
-    ambulo__roll roll = ambulo__heel_roll_at(d, contact, p->row->time);
-    r->heel_pressure[front] += by_end;
-    if (!front) return;
-    r->heel_roll += by_end * roll.part;
-    add_rolling(p, contact, &roll, by_end * d->ground_reaction.heel_roll, partials);
-  }
-}
-
-static void add_pressure(const force_row *p, ambulo__partials *partials) {
-  const ambulo_problem *problem = p->s->problem;
-  ambulo__support_row side = side_of(p);
-  const int *active = problem->active + 2 * (size_t)side.node; /* those that D is between */
-  int foot = p->row->subject == problem->model->feet[1].name;
-  double by_side = -p->pull * side.force;
-  int own = ambulo__stationary_contacts(p->s, side.node, side.before)[foot];
-  ambulo__load load = ambulo__load_at(&problem->definition, p->outlines, p->row->time);
-  double by_apart = foot == 0 ? -load.share[1] : load.share[0]; /* k = .. - normal . s_j */
-  for (int i = 0; i < 2; i++) {
-    double by_place = by_side * side.normal[i];
-    partials->place[2 * own + i] += by_place;
-    if (active[0] < 0 || active[1] < 0) continue;
-    partials->place[2 * active[0] + i] += by_apart * by_place;
-    partials->place[2 * active[1] + i] -= by_apart * by_place;
-  }
-  double by_share = by_side * (side.normal[0] * load.apart[0] + side.normal[1] * load.apart[1]);
-  ambulo__partials_of_share(p->s, side.node, by_share, partials);
-  add_height(p, &side, partials);
-  add_box(p, &side, &problem->definition.contacts[own], by_side, partials);
-}
-
-static void add_friction(const force_row *p, ambulo__partials *partials) {
-  const ambulo_problem *problem = p->s->problem;
-  const ambulo__channels *channels = &problem->channels;
-  int channel = problem->table.terms[p->row->first_term].channel;
-  int first = ambulo__channel_force(channels, 0);
-  for (int foot = 0; foot < channels->feet; foot++) {
-    int own = ambulo__channel_foot_force(channels, foot, 0);
-    if (channel >= own && channel < own + 3) first = own;
-  }
-  double normal = ambulo__stationary_along(p->s, p->row->node, first, problem->model->up);
-  partials->reaction.friction += p->pull * normal / p->weight;
-}
-
 /* a row of contact/sharing.c */
 static int is_of_contact(const force_row *p) {
   const ambulo_problem *problem = p->s->problem;
@@ -156,8 +79,7 @@ static int is_of_contact(const force_row *p) {
   int kind = p->row->kind;
   int of_force = kind == AMBULO__KIND_NORMAL_FORCE || kind == AMBULO__KIND_FRICTION ||
                  kind == AMBULO__KIND_PRESSURE || kind == AMBULO__KIND_FREE_MOMENT;
-  return of_force && problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED &&
-         ambulo__sharing_channel(problem, p->row) >= first;
+  return of_force && problem->channels.slots && ambulo__sharing_channel(problem, p->row) >= first;
 }
 
 /* a row of contact/flight.c: c = b +- (...) / W, b = e or e h */
@@ -186,17 +108,8 @@ static void add_row(const force_row *p, int planar, ambulo__partials *partials) 
   case AMBULO__KIND_ZMP:
     add_zmp(p, planar, partials);
     break;
-  case AMBULO__KIND_PRESSURE:
-    add_pressure(p, partials);
-    break;
   case AMBULO__KIND_NORMAL_FORCE:
     partials->minimum_force -= p->pull;
-    break;
-  case AMBULO__KIND_FRICTION:
-    add_friction(p, partials);
-    break;
-  case AMBULO__KIND_FREE_MOMENT:
-    partials->reaction.free_moment += p->pull;
     break;
   case AMBULO__KIND_FLIGHT:
     add_flight(p, partials);

@@ -108,10 +108,9 @@ void ambulo__node_forces_clear(ambulo__node_forces *f) {
   memset(f->torque, 0, (size_t)f->s->problem->coordinates * sizeof *f->torque);
   memset(f->wrench, 0, sizeof f->wrench);
   memset(f->center, 0, sizeof f->center);
-  memset(f->apart, 0, sizeof f->apart);
   memset(f->place, 0, sizeof f->place);
   memset(f->load, 0, sizeof f->load);
-  f->shear = f->height = f->share = f->moment_arm = f->slant = 0.0;
+  f->moment_arm = f->slant = 0.0;
 }
 
 double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const double wrench[6]) {

@@ -20,9 +20,6 @@ typedef struct ambulo__node_forces {
   double *torque;        /* [d]: tangent of the generalized forces without the ground's */
   double wrench[6];      /* tangent of the root wrench: moment, force */
   double center[3];      /* tangent of the centre of mass, m */
-  double apart[3];       /* tangent of D (mechanics/kernel_ground.h), m */
-  double shear, height;  /* tangents of kappa and of the height of the ground, m */
-  double share;          /* tangent of a_0 */
   /* where contacts share the load: tangents of their centres, weights, of moment_arm and of slant
    */
   double place[AMBULO__MOST_CONTACTS][3], load[AMBULO__MOST_CONTACTS], moment_arm, slant;
@@ -55,7 +52,6 @@ double ambulo__node_forces_pull(const ambulo__node_forces *forces);
 void ambulo__turn_of_gravity(const ambulo_model *model, double turn[3]);
 
 /* The ground's part. */
-double ambulo__ground_split_pull(const ambulo__node_forces *forces);
 double ambulo__contact_forces_pull(const ambulo__node_forces *forces);
 
 /* Where contacts share the load: adds the partials of all that the law is told at the node. */

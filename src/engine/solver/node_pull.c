@@ -1,6 +1,6 @@
 /* solver/node_pull.c - how far the adjoints of a node pull at a tangent: of its torques and
- * its root wrench, and of what is on the ground, by the split (ground_split.c) or by the law that
- * contacts share the load with (contact_forces.c). */
+ * its root wrench, and of what is on the ground, by the law that contacts share the load with
+ * (contact_forces.c). */
 #include "solver/node_forces.h"
 
 /* (S.8) sum w dy/dp of a node */
@@ -8,9 +8,7 @@ double ambulo__node_forces_pull(const ambulo__node_forces *f) {
   const ambulo_problem *p = f->s->problem;
   const ambulo__channels *c = &p->channels;
   double sum = 0.0;
-  if (c->feet)
-    sum = ambulo__plan_contacts(p->plan) ? ambulo__contact_forces_pull(f)
-                                         : ambulo__ground_split_pull(f);
+  if (c->slots) sum = ambulo__contact_forces_pull(f);
   for (int i = 0; i < p->coordinates; i++)
     sum += ambulo__stationary_adjoint(f->s, f->node, ambulo__channel_tau(c, i)) * f->torque[i];
   for (int i = 0; i < 6; i++)

@@ -18,7 +18,7 @@
  * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
  * place_rows.c; force_rows.c, support_side.c; devices.c, holds.c; contact_pull.h, contact_times.c,
  * sharing_rows.c; bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c,
- * ground_split.c, contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c;
+ * contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c;
  * event_rates.h, event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c,
  * walk_parameters.c, time_parameters.c, device_parameters.c, hold_parameters.c,
  * term_parameters.c, words.c,
@@ -148,10 +148,6 @@ ambulo_status ambulo__partials_name_events(const ambulo_problem *problem, ambulo
 /* Last: nodes, knots and contacts with the events. E_MEMORY. */
 ambulo_status ambulo__partials_of_events(const ambulo__stationary *s, ambulo__pool *pool,
                                          ambulo__partials *partials);
-
-/* Adds to those of times what dL/da_0 of a node, its share of foot 0, has of them. */
-void ambulo__partials_of_share(const ambulo__stationary *s, int node, double by_share,
-                               ambulo__partials *partials);
 
 /* A side of a support region displaced: adds dc/d(place) of a row on it to the contacts' places,
  * times pull. */

@@ -1,8 +1,9 @@
 /* solver/sensitivity_inertia.c - what the bodies weigh, where gravity points, and where the
  * ground's forces act: through torques and forces, at a fixed motion.
  *
- * Torques and the root wrench are linear in masses and in gravity g; the split between the feet
- * keeps that. With a the acceleration of a point at p, c the centre of mass, m the whole mass:
+ * Torques and the root wrench are linear in masses and in gravity g; the law that
+ * contacts share the load with keeps that. With a the acceleration of a point at p, c the centre of
+ * mass, m the whole mass:
  *
  *     load m_l at p       force per kg a - g at p,  dc/dm_l = (p - c) / m
  *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays. Of
@@ -11,16 +12,14 @@
  *     bodies alone        d/d ln m_b = d/d ln m - m_l d/dm_l, and likewise of m in rows and terms
  *     slope               force -m_b dg/ds on the centre of each body,
  *                         dg/ds = |g| (sin s n - cos s f)
- *     footholds           D = place_0 - place_1 + constant while both feet are loaded
  *
- * Shear and height of the ground: ground_split.c; contacts that share the load: contact_told.c.
+ * Contacts that share the load: contact_told.c.
  *
  * An offset of a term that is the body weight m g is one of that mass too.
  */
 #include "solver/node_forces.h"
 
 #include <math.h>
-#include <string.h>
 
 static double pull_of_load(ambulo__node_forces *f, const ambulo__model_load *load) {
   const ambulo_model *model = f->s->problem->model;
@@ -32,7 +31,7 @@ static double pull_of_load(ambulo__node_forces *f, const ambulo__model_load *loa
   ambulo__node_forces_clear(f);
   ambulo__node_forces_add(f, load->link, place, force);
   int center = ambulo__channel_center(channels, 0);
-  for (int i = 0; channels->feet && i < 3; i++) {
+  for (int i = 0; channels->slots && i < 3; i++) {
     double c = ambulo__stationary_channel(f->s, f->node, center + i);
     f->center[i] = (place[i] - c) / model->mass;
   }
@@ -66,37 +65,6 @@ static double pull_of_all(const ambulo__node_forces *f) {
     last = ambulo__channel_center(c, 0);
   }
   return sum;
-}
-
-static void add_footholds(ambulo__node_forces *f, ambulo__partials *partials) {
-  const ambulo_problem *p = f->s->problem;
-  const int *active = p->active + 2 * (size_t)f->node;
-  const double *axes[2] = {p->model->forward, p->model->left};
-  if (active[0] < 0 || active[1] < 0) return;
-  for (int i = 0; i < 2; i++) {
-    ambulo__node_forces_clear(f);
-    memcpy(f->apart, axes[i], sizeof f->apart);
-    double pull = ambulo__node_forces_pull(f);
-    partials->place[2 * active[0] + i] += pull;
-    partials->place[2 * active[1] + i] -= pull;
-  }
-}
-
-static void add_ground(ambulo__node_forces *f, ambulo__partials *partials) {
-  if (ambulo__plan_contacts(f->s->problem->plan) > 0) {
-    ambulo__partials_of_told(f, partials);
-    return;
-  }
-  ambulo__node_forces_clear(f);
-  f->shear = 1.0;
-  partials->reaction.shear += ambulo__node_forces_pull(f);
-  ambulo__node_forces_clear(f);
-  f->height = 1.0;
-  partials->ground_height += ambulo__node_forces_pull(f);
-  ambulo__node_forces_clear(f);
-  f->share = 1.0;
-  ambulo__partials_of_share(f->s, f->node, ambulo__node_forces_pull(f), partials);
-  add_footholds(f, partials);
 }
 
 void ambulo__turn_of_gravity(const ambulo_model *model, double turn[3]) {
@@ -143,7 +111,7 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
     all += pull_of_all(&f);
     partials->slope += pull_of_slope(&f, turn);
     for (int i = 0; i < m->load_count; i++) partials->load[i] += pull_of_load(&f, &m->loads[i]);
-    if (p->channels.feet) add_ground(&f, partials);
+    if (p->channels.slots) ambulo__partials_of_told(&f, partials);
   }
   ambulo__node_forces_free(&f);
   partials->log_mass += pull_of_offsets(p, partials);

@@ -106,8 +106,7 @@ static void add_pressure(ambulo__parameters *p) {
                         "roll of the pressure under the heel", "ground_reaction.pressure.roll");
   ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->pressure_width, by->pressure_width,
                         "width of the pressure", "ground_reaction.pressure.width");
-  if (r->arc_pressure > 0.0 &&
-      p->problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED)
+  if (r->arc_pressure > 0.0)
     ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->arc_pressure, by->arc_pressure,
                           "distance of the pressure from an arc's", "ground_reaction.pressure.arc");
 }
@@ -137,10 +136,7 @@ static void add_ground(ambulo__parameters *p) {
                           "least vertical force", "%s.minimum_force",
                           reacts ? "ground_reaction" : "constraints");
   if (!reacts) return;
-  if (r->kind == AMBULO_REACTION_TWO_STEP)
-    ambulo__parameter_add(p, AMBULO__RATIO, r->shear, by->shear, "shear between the feet",
-                          "ground_reaction.shear");
-  if (r->kind == AMBULO_REACTION_SHARED) add_sharing(p);
+  add_sharing(p);
   if (r->friction >= 0.0)
     ambulo__parameter_add(p, AMBULO__RATIO, r->friction, by->friction, "friction",
                           "ground_reaction.friction");

@@ -95,7 +95,7 @@ void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot
   const ambulo__channels *channels = &p->channels;
   const ambulo__slots slots = ambulo__slots_of(&p->definition);
   int first = ambulo__channel_foot_force(channels, 0, 0);
-  int slot = (ambulo__sharing_channel(p, row) - first) / channels->slot_rows;
+  int slot = (ambulo__sharing_channel(p, row) - first) / AMBULO__SLOT_CHANNELS;
   int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.effector[slot]];
   const ambulo_contact *contact = &p->definition.contacts[own];
   contact_row c = {.mode = contact->mode, .pull = pull};

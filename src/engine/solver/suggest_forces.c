@@ -163,18 +163,17 @@ static int modes_of(const ambulo__advice *a, ambulo_contact_mode mode[2]) {
 static double counted_by(const ambulo__advice *a) {
   const ambulo_problem *p = a->problem;
   const ambulo__row_table *table = &p->table;
-  int first = ambulo__channel_foot_force(&p->channels, 0, 0), rows = p->channels.slot_rows;
+  int first = ambulo__channel_foot_force(&p->channels, 0, 0);
   int r = (int)(a->row - table->rows);
   int begins = !strcmp(a->row->detail, "back") || !strcmp(a->row->detail, "right");
   int pair[2] = {r, begins ? r + 1 : r - 1};
   double across[3] = {0.0, 0.0, 0.0}, sum = 0.0;
-  if (p->definition.ground_reaction.kind != AMBULO_REACTION_SHARED) return 1.0;
   for (int i = 0; i < 2; i++) {
     const ambulo__table_row *row = &table->rows[pair[i]];
     const ambulo__arc *arc = ambulo__row_arc_of(table, row);
     if (arc) across[0] += arc->room;
     for (int t = row->first_term; t < row->first_term + row->term_count; t++) {
-      int axis = (table->terms[t].channel - first) % rows;
+      int axis = (table->terms[t].channel - first) % AMBULO__SLOT_CHANNELS;
       if (axis < 3) across[axis] += table->terms[t].coefficient * table->weight;
     }
     sum += a->values[pair[i]] - (arc ? arc->slack : row->constant);

@@ -73,37 +73,31 @@ static void read_pressure(ambulo__problem_reader *reader, const ambulo__yaml_nod
   ambulo__yaml_close(node);
 }
 
-/* a law has numbers of its own; those of the other one may stay in the file */
-static void warn_of_others(const ambulo__yaml_node *section, int kind) {
-  static const char *const kinds[] = {"none", "two_step", "shared"};
-  static const struct {
-    const char *key;
-    int kind;
-  } own[] = {{"transfer", AMBULO_REACTION_TWO_STEP},      {"exponent", AMBULO_REACTION_TWO_STEP},
-             {"shear", AMBULO_REACTION_TWO_STEP},         {"moment_arm", AMBULO_REACTION_SHARED},
-             {"slant", AMBULO_REACTION_SHARED},           {"loading_rate", AMBULO_REACTION_SHARED},
-             {"flight_tolerance", AMBULO_REACTION_SHARED}};
-  for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
-    const ambulo__yaml_node *node = ambulo__yaml_get(section, own[i].key);
-    if (!node || kind == AMBULO_REACTION_NONE || kind == own[i].kind) continue;
-    ambulo__yaml_warning(node, NULL, "'%s' has no effect with kind %s; it belongs to kind %s",
-                         own[i].key, kinds[kind], kinds[own[i].kind]);
-  }
+/* the prescribed split between two feet, which earlier versions had */
+static void refuse_split(const ambulo__yaml_node *section, const ambulo__yaml_node *kind) {
+  static const char *const keys[] = {"transfer", "exponent", "shear"};
+  for (int i = 0; i < 3; i++) (void)ambulo__yaml_get(section, keys[i]);
+  (void)ambulo__yaml_error(kind, AMBULO_E_SCHEMA,
+                           "write 'kind: shared', and leave out transfer, exponent and shear",
+                           "the prescribed split of the load is no longer a law (got 'two_step'); "
+                           "expected shared or none");
+}
+
+static ambulo_reaction_kind read_kind(const ambulo__yaml_node *section) {
+  static const char *const kinds[] = {"none", "shared"};
+  const ambulo__yaml_node *kind = ambulo__yaml_get(section, "kind");
+  if (strcmp(ambulo__yaml_text(kind), "two_step") != 0)
+    return (ambulo_reaction_kind)ambulo__yaml_choice(kind, kinds, 2, AMBULO_REACTION_SHARED);
+  refuse_split(section, kind);
+  return AMBULO_REACTION_SHARED;
 }
 
 static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
-  static const char *const kinds[] = {"none", "two_step", "shared"};
   ambulo_problem_definition *d = &reader->definition;
   ambulo_ground_reaction *r = &d->ground_reaction;
   if (!section) return;
-  const ambulo__yaml_node *given = ambulo__yaml_get(section, "kind");
-  int kind = ambulo__yaml_choice(given, kinds, 3, given ? -1 : AMBULO_REACTION_TWO_STEP);
-  if (kind >= 0) warn_of_others(section, kind);
-  if (kind < 0) kind = AMBULO_REACTION_TWO_STEP; /* that was said */
-  r->kind = (ambulo_reaction_kind)kind;
+  r->kind = read_kind(section);
   ambulo__read_members(reader, section, &ambulo__ground_reaction_members, "", r);
-  int is_split = kind == AMBULO_REACTION_TWO_STEP;
-  if (is_split && !(d->minimum_force >= 0.0)) d->minimum_force = 0.2;
   ambulo__read_member(reader, ambulo__yaml_get(section, "minimum_force"),
                       &ambulo__definition_members, "constraints.minimum_force", d);
   read_pressure(reader, ambulo__yaml_get(section, "pressure"), r);
