@@ -25,10 +25,10 @@ static void steps_are_capped_by_what_moves(void **state) {
   for (int i = 0; i < f.problem->coordinates; i++) {
     if (c[i].type == AMBULO_REVOLUTE) assert_close(f.engine->setup->cap[i], 1.0, 0);
   }
-  assert_close(f.engine->setup->cap[tx], 2.0 * (5.0 - f.problem->definition.travel), 1e-12);
+  assert_close(f.engine->setup->cap[tx], 5.0 - f.problem->definition.travel, 1e-12);
   double *step = f.engine->quadratic->step;
   memset(step, 0, (size_t)f.n * sizeof *step);
-  step[f.problem->coordinates + tx] = 2.0;
+  step[f.problem->coordinates + tx] = 1.5;
   assert_close(ambulo__step_limit(f.engine->setup, step, 0.5), 1.0, 0);
   step[f.problem->coordinates + tx] = -2.0 * f.engine->setup->cap[tx];
   assert_close(ambulo__step_limit(f.engine->setup, step, 0.5), 0.25, 1e-15);

@@ -107,10 +107,11 @@ static void curvature_is_kept_nearby_only(void **state) {
   (void)state;
   engine_fixture f;
   engine_open(&f, "yardstick_12");
-  double *moved = calloc((size_t)f.n, sizeof *moved);
+  double *moved = calloc((size_t)f.n, sizeof *moved), reach = ambulo__engine_roughness(f.engine);
+  assert_close(reach, 0.01, 1e-15);
   for (int j = 0; j < f.n; j++) f.x[j] = 0.3 * sin(j);
   fill_at(&f, f.x, 0.25);
-  for (int j = 0; j < f.n; j++) moved[j] = f.x[j] + 0.9 * AMBULO__METRIC_REACH;
+  for (int j = 0; j < f.n; j++) moved[j] = f.x[j] + 0.9 * reach;
   fill_at(&f, moved, 0.5);
   assert_true(difference_from_fresh(&f, moved, 0.5) > 1e-6);
   f.engine->linearized.filled_mu = -1.0;
@@ -118,7 +119,7 @@ static void curvature_is_kept_nearby_only(void **state) {
   fill_at(&f, moved, 0.5);
   assert_true(difference_from_fresh(&f, f.x, 0.5) <= 1e-12);
   fill_at(&f, moved, 0.25);
-  moved[f.n / 2] += 0.2 * AMBULO__METRIC_REACH;
+  moved[f.n / 2] += 0.2 * reach;
   fill_at(&f, moved, 0.25);
   assert_true(difference_from_fresh(&f, moved, 0.25) == 0.0);
   moved[f.n / 2] = NAN;

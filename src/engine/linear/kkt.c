@@ -134,7 +134,7 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
     ambulo__kkt_pass(kkt, d, b, m);
     error = equality_error(kkt, h, d);
     for (int i = 0; i < kkt->equalities; i++) l[i] += kkt->penalty[i] * kkt->residual[i];
-    if (error <= AMBULO__KKT_TOLERANCE || !(error <= AMBULO__KKT_PROGRESS * before)) break;
+    if (error <= AMBULO__ROUNDING || !(error <= AMBULO__KKT_PROGRESS * before)) break;
     before = error;
   }
   if (error > AMBULO__KKT_SLOW) {

@@ -125,7 +125,7 @@ static int eliminate_row(ambulo__update *u, int i) {
   }
   l[i] = pivot;
   double size = u->products[i * ROOM + i] + fabs(1.0 / u->weight[i]);
-  return !(fabs(pivot) > AMBULO__UPDATE_LOSS * size);
+  return !(fabs(pivot) > AMBULO__HALF_DIGITS * size);
 }
 
 /* columns without a weight have a row of the unit matrix */

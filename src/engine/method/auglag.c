@@ -282,7 +282,7 @@ static int set_up(drive *s, nlopt_opt outer, nlopt_opt local) {
   static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
   int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
-               nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
+               nlopt_set_vector_storage(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                !ambulo__nlopt_can_copy((unsigned)s->engine->setup->n) ||
                nlopt_set_local_optimizer(outer, local) < 0 ||
                nlopt_set_min_objective(outer, objective, s) < 0;

@@ -181,15 +181,14 @@ static nlopt_opt create_optimizer(unsigned n, ambulo_algorithm algorithm, int ev
   nlopt_opt opt = nlopt_create(algorithm == AMBULO_AUGLAG ? NLOPT_AUGLAG : NLOPT_LD_SLSQP, n);
   if (!opt) return NULL;
   int failed = nlopt_set_maxeval(opt, evaluations) < 0 ||
-               nlopt_set_ftol_rel(opt, AMBULO__DIRECT_TOLERANCE) < 0 ||
-               nlopt_set_xtol_rel(opt, AMBULO__DIRECT_TOLERANCE) < 0;
+               nlopt_set_ftol_rel(opt, AMBULO__ROUNDING) < 0 ||
+               nlopt_set_xtol_rel(opt, AMBULO__ROUNDING) < 0;
   if (!failed && algorithm == AMBULO_AUGLAG) {
     nlopt_opt local = nlopt_create(NLOPT_LD_LBFGS, n);
     failed = !local || nlopt_set_maxeval(local, evaluations / 10 + 50) < 0 ||
-             nlopt_set_ftol_rel(local, AMBULO__DIRECT_ROW) < 0 ||
-             nlopt_set_xtol_rel(local, AMBULO__DIRECT_ROW) < 0 ||
-             nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
-             !ambulo__nlopt_can_copy(n) || nlopt_set_local_optimizer(opt, local) < 0;
+             nlopt_set_ftol_rel(local, AMBULO__RESTORE_TARGET) < 0 ||
+             nlopt_set_xtol_rel(local, AMBULO__RESTORE_TARGET) < 0 || !ambulo__nlopt_can_copy(n) ||
+             nlopt_set_local_optimizer(opt, local) < 0;
     nlopt_destroy(local);
   }
   if (!failed) return opt;
@@ -202,7 +201,7 @@ static int add_sets(ambulo__direct *d, nlopt_opt opt, callback *rows_of) {
     unsigned m = (unsigned)d->set[s]->count;
     if (m == 0) continue;
     rows_of[s] = (callback){d, opt, d->set[s]};
-    for (unsigned i = 0; i < m; i++) d->values[i] = AMBULO__DIRECT_ROW;
+    for (unsigned i = 0; i < m; i++) d->values[i] = AMBULO__RESTORE_TARGET;
     int added = is_equality(s)
                     ? nlopt_add_equality_mconstraint(opt, m, rows, &rows_of[s], d->values)
                     : nlopt_add_inequality_mconstraint(opt, m, rows, &rows_of[s], d->values);
@@ -309,9 +308,9 @@ static ambulo_status call(ambulo__direct *d, ambulo_algorithm algorithm, int *id
   int feasible = is_feasible(d);
   run->iterations++;
   *idle = feasible || d->best_violation < AMBULO__VIOLATION_BETTER * violation ? 0 : *idle + 1;
-  if (*idle == AMBULO__CALLS_IDLE) *ending = AMBULO_ENDING_STALLED;
+  if (*idle == AMBULO__PATIENCE) *ending = AMBULO_ENDING_STALLED;
   if (!(d->best_violation < HUGE_VAL)) *ending = AMBULO_ENDING_NO_DESCENT;
-  if (feasible && before < HUGE_VAL && change <= AMBULO__CALLS_SETTLED * (fabs(before) + 1e-12))
+  if (feasible && before < HUGE_VAL && change <= AMBULO__HALF_DIGITS * (fabs(before) + 1e-12))
     *ending = AMBULO_ENDING_SETTLED;
   (void)ambulo__run_iteration(run, d->engine->setup->problem->definition.intervals,
                               d->best_objective, d->best_violation, NAN);

@@ -15,9 +15,9 @@
 static double cap_of(const ambulo_problem *problem, int i) {
   const ambulo_coordinate *c = &problem->model->coordinates[i];
   ambulo__bounds bounds = ambulo__bounds_of(&problem->definition, i, AMBULO_LIMITED_POSITION);
-  if (c->type == AMBULO_REVOLUTE) return AMBULO__USUAL_CAP;
+  if (c->type == AMBULO_REVOLUTE) return 1.0;
   double width = bounds.high.value - bounds.low.value;
-  return isfinite(width) ? fmax(AMBULO__USUAL_CAP, AMBULO__RANGE_CAP * width) : HUGE_VAL;
+  return isfinite(width) ? fmax(1.0, width) : HUGE_VAL;
 }
 
 /* An objective of terms that cannot be negative is at its lower bound, for all purposes, when each

@@ -61,11 +61,15 @@ ambulo_status ambulo__engine_gradient(ambulo__engine *e, double scale, const dou
   return status;
 }
 
+double ambulo__engine_roughness(const ambulo__engine *e) {
+  return AMBULO__METRIC_SHARE *
+         fmin(AMBULO__USUAL_OPTIMALITY, e->run->options->optimality_tolerance);
+}
+
 /* whether the point in the workspace is so near to where H0 was filled in that this H0 will do */
 static int is_near(const ambulo__engine *e) {
   const ambulo__linearized *at = &e->linearized;
-  double reach =
-      fmin(AMBULO__METRIC_REACH, AMBULO__METRIC_SHARE * e->run->options->optimality_tolerance);
+  double reach = ambulo__engine_roughness(e);
   if (at->filled_mu < 0.0) return 0;
   for (int j = 0; j < e->setup->n; j++) {
     if (!(fabs(e->workspace->x[j] - at->filled_at[j]) <= reach)) return 0;

@@ -16,9 +16,12 @@ double ambulo__engine_excess(const ambulo__engine *engine, double *excess);
 ambulo_status ambulo__engine_gradient(ambulo__engine *engine, double scale, const double *p,
                                       const double *l, double *gradient);
 /* linearized.base = metric + mu I, the metric that of the point in the workspace or of one from
- * which no unknown has moved by more than AMBULO__METRIC_REACH. 1: it is not finite, which is told
+ * which no unknown has moved by more than the roughness. 1: it is not finite, which is told
  * to the run. */
 int ambulo__engine_fill_metric(ambulo__engine *engine, double mu);
+/* Relative error of a reduced gradient, and change of an unknown since the metric was filled in,
+ * that the optimality tolerance allows. */
+double ambulo__engine_roughness(const ambulo__engine *engine);
 /* Factor <= 1 that keeps a step below `part` of every coordinate's cap. */
 double ambulo__step_limit(const ambulo__setup *setup, const double *step, double part);
 

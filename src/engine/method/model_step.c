@@ -30,6 +30,7 @@
 #include "method/parameters.h"
 #include "base/worst.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -101,7 +102,7 @@ static double exact_step(const ambulo__quadratic *q) {
   double low = 0.0, high = 1.0, t = 1.0, curvature;
   double zero = AMBULO__MODEL_LEVEL * fabs(slope_at(q, smooth, 0.0, &curvature));
   if (slope_at(q, smooth, 1.0, &curvature) <= zero) return 1.0;
-  for (int k = 0; k < AMBULO__MODEL_SEARCH; k++) {
+  for (int k = 0; k < DBL_MANT_DIG; k++) {
     double slope = slope_at(q, smooth, t, &curvature);
     if (fabs(slope) <= zero) break;
     if (slope > 0.0) {
@@ -227,7 +228,7 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   if (changed == 0) return 1;
   if (!better) return 0;
   if (k > 0 && fabs(d->before - now) < d->tolerance * gained) return 1;
-  return slope < AMBULO__MODEL_EXACT * gained;
+  return slope < AMBULO__HALF_DIGITS * gained;
 }
 
 int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *phi) {
@@ -244,7 +245,7 @@ int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *p
   descent d = {.before = HUGE_VAL,
                .least = HUGE_VAL,
                .searching = !roughly,
-               .tolerance = roughly ? AMBULO__MODEL_ENOUGH : AMBULO__MODEL_EXACT};
+               .tolerance = roughly ? AMBULO__MODEL_ENOUGH : AMBULO__HALF_DIGITS};
   d.start = d.value = value_at(q, 0.0);
   keep(q, &d);
   for (int k = 0; k < AMBULO__MODEL_STEPS && settled == 0; k++) {

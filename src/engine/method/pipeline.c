@@ -31,7 +31,7 @@ static void begin_multipliers(ambulo__engine *e, ambulo__stage stage) {
   e->iterate.rho = stage == AMBULO__NEAR ? AMBULO__PENALTY_LIMIT : AMBULO__PENALTY_START;
   if (carried) {
     e->iterate.rho = AMBULO__PENALTY_CARRIED;
-    e->iterate.mu *= AMBULO__DAMPING_CARRIED;
+    e->iterate.mu /= AMBULO__DAMPING_CHANGE * AMBULO__DAMPING_CHANGE;
   } else {
     memset(e->iterate.lambda, 0, (size_t)e->setup->inequalities * sizeof *e->iterate.lambda);
   }
@@ -59,9 +59,7 @@ ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__stage stage, double *x
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   ambulo__stopping stopping = ambulo__stopping_begin(stage == AMBULO__COARSE);
   ambulo_ending ending = AMBULO_ENDING_NONE;
-  int differences = p->definition.discretization == AMBULO_CENTRAL_DIFFERENCE;
-  e->iterate.mu =
-      (differences ? AMBULO__DAMPING_START_DIFFERENCES : AMBULO__DAMPING_START) * interval;
+  e->iterate.mu = AMBULO__DAMPING_START * interval;
   e->reached.value = HUGE_VAL;
   ambulo_status status = solve(e, stage, &stopping, x, &ending);
   int cut = e->run->stopped || ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_NLOPT;

@@ -98,7 +98,7 @@ int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {
       done = 0;
       break;
     }
-    rho *= AMBULO__POLISH_GROWTH;
+    rho *= AMBULO__PENALTY_STEP;
   }
   memcpy(iterate->equality_multiplier, e->reached.equality_multiplier,
          (size_t)s->equalities * sizeof *iterate->equality_multiplier);

@@ -7,7 +7,6 @@
  *
  *   ends   border rows (periodic, mirrored), then the rows of the first, then of the last node
  *   node   the rows of one node
- *   all    every row, for small problems
  *
  * In a group the gradients g_r are orthogonalized in order (Gram-Schmidt, twice):
  *
@@ -121,7 +120,7 @@ static ambulo__row_rank add_member(group *g, int i) {
   double before = norm_of(g->candidate, g->width);
   double rest = g->value[i] - orthogonalize(g);
   double after = norm_of(g->candidate, g->width);
-  if (after > AMBULO__RANK_DEPENDENCE * before && before > 0.0 && g->basis < g->width) {
+  if (after > AMBULO__HALF_DIGITS * before && before > 0.0 && g->basis < g->width) {
     double *e = g->vector + (size_t)g->basis * (size_t)g->width;
     for (int j = 0; j < g->width; j++) e[j] = g->candidate[j] / after;
     g->level[g->basis++] = rest / after;
@@ -172,13 +171,6 @@ static int sort_all(group *g, ambulo__run *run, int *rank) {
   const ambulo_problem *p = g->rows->problem;
   int last = p->nodes - 1, borders = 0;
   for (int i = 0; i < g->rows->count; i++) borders += g->rows->host[i] < 0;
-  if (p->variables <= AMBULO__RANK_ALL_ROWS) {
-    g->members = 0;
-    collect(g, -1);
-    for (int node = 0; node <= last; node++) collect(g, node);
-    sort_group(g, rank);
-    return 0;
-  }
   for (int node = 0; node <= last; node++) {
     if (borders > 0 && (node == 0 || node == last)) continue;
     if (node % POLL_NODES == POLL_NODES - 1 && ambulo__run_poll(run)) return 1;
@@ -202,7 +194,7 @@ static int widest_group(const ambulo__sparse_rows *s) {
   for (int i = 0; i < s->count; i++) {
     if (s->host[i] < 0) width += s->start[i + 1] - s->start[i];
   }
-  return width > p->variables || p->variables <= AMBULO__RANK_ALL_ROWS ? p->variables : width;
+  return width < p->variables ? width : p->variables;
 }
 
 /* Rows that follow from others are left out in silence: contacts of rigid soles and repeated ends

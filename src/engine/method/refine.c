@@ -86,7 +86,7 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
     if (before->problem) ambulo__carry_to(&before->carried, engine);
     status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
     useful = !status && engine->reached.value < HUGE_VAL;
-    held = engine->reached.violation <= AMBULO__COARSE_VIOLATION;
+    held = engine->reached.violation <= AMBULO__ROUGH_VIOLATION;
   }
   if (useful && held) status = ambulo__carry_from(engine, a, &new.carried);
   ambulo__engine_free(engine);

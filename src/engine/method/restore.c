@@ -58,7 +58,7 @@ static int advance(ambulo__engine *e, const double *d, double *x) {
   int n = e->setup->n;
   double *from = e->iterate.x, t = ambulo__step_limit(e->setup, d, AMBULO__RESTORE_STEP_CAP);
   memcpy(from, x, (size_t)n * sizeof *x);
-  for (int trial = 0; trial < AMBULO__RESTORE_HALVINGS; trial++) {
+  for (int trial = 0; trial < AMBULO__INNER_STEPS; trial++) {
     for (int j = 0; j < n; j++) x[j] = from[j] + t * d[j];
     if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return 0;
     ambulo__run_fault(e->run, &e->workspace->fault);

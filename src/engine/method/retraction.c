@@ -38,10 +38,9 @@ ambulo_status ambulo__retraction_create(ambulo__engine *e) {
   ambulo__retraction *r = ambulo__pool_blocks(pool, 1, sizeof *r);
   if (!r) return AMBULO_E_MEMORY;
   e->retraction = r;
-  r->tolerance = fmin(AMBULO__RETRACTION_TOLERANCE,
-                      AMBULO__RETRACTION_SHARE * e->run->options->feasibility_tolerance);
-  r->adjoint_tolerance = fmin(AMBULO__ADJOINT_TOLERANCE,
-                              AMBULO__ADJOINT_SHARE * e->run->options->optimality_tolerance);
+  r->tolerance =
+      AMBULO__RETRACTION_SHARE * fmin(AMBULO__RESTORED, e->run->options->feasibility_tolerance);
+  r->adjoint_tolerance = ambulo__engine_roughness(e);
   double **vectors[] = {&r->step, &r->gradient, &r->previous, &r->previous_gradient};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     *vectors[i] = ambulo__pool_doubles(pool, (size_t)n);
@@ -77,7 +76,7 @@ static void chord(ambulo__engine *e, double *y) {
 int ambulo__retract(ambulo__engine *e, double *y) {
   double least = HUGE_VAL;
   ambulo__mixing_reset(&e->retraction->points);
-  for (int k = 0; k < AMBULO__CHORD_STEPS; k++) {
+  for (int k = 0; k < AMBULO__INNER_STEPS; k++) {
     if (ambulo__evaluate(e->workspace, y)) {
       ambulo__run_fault(e->run, &e->workspace->fault);
       return 0;
@@ -87,7 +86,7 @@ int ambulo__retract(ambulo__engine *e, double *y) {
     if (least <= AMBULO__ROUNDING && error > 0.5 * least)
       return 1; /* as near as rounding lets it */
     if (isnan(error)) return 0;
-    if (k == AMBULO__CHORD_STEPS - 1) return error <= AMBULO__ROUNDING;
+    if (k == AMBULO__INNER_STEPS - 1) return error <= AMBULO__ROUNDING;
     least = fmin(least, error);
     chord(e, y);
     for (int j = 0; j < e->setup->n; j++) {
@@ -137,7 +136,7 @@ ambulo_status ambulo__reduced_gradient(ambulo__engine *e, double scale, const do
   ambulo__retraction *r = e->retraction;
   double before = 0.0, left, size;
   ambulo__mixing_reset(&r->adjoint);
-  for (int k = 0; k < AMBULO__ADJOINT_PASSES; k++) {
+  for (int k = 0; k < AMBULO__INNER_STEPS; k++) {
     ambulo_status status = adjoint_pass(e, scale, p, l, z, &left);
     if (status || e->setup->equalities == 0) return status;
     double change = moved_by(r, e->setup->n, z, &size);

@@ -102,8 +102,7 @@ static ambulo_status choose(ambulo__engine *e, double *x, double *smooth, double
   ambulo_status status = ambulo__smooth_curve(e, x, smooth);
   if (status) return status == AMBULO_E_NUMERIC ? AMBULO_OK : status; /* a start like any other */
   double before = bending(e);
-  if (ambulo__evaluate(e->workspace, smooth) || bending(e) > AMBULO__ROUGH_KEPT * before)
-    return AMBULO_OK;
+  if (ambulo__evaluate(e->workspace, smooth) || bending(e) > 0.5 * before) return AMBULO_OK;
   memcpy(rough, x, bytes);
   e->iterate.mu =
       AMBULO__DAMPING_START * (p->definition.duration / ambulo__basis_intervals(p->basis));
