@@ -1,14 +1,31 @@
-/* study/fit_conditions.c - `conditions:` of a fit file and their references (fit.h). */
+/* study/fit_conditions.c - `conditions:` of a fit file, their references as targets, and how far a
+ * predicted curve is from its target, as a block of residuals (fit.h).
+ *
+ * With y_i the prediction and m_i the reference at the target's n points, s its deviation, and
+ * e_i = y_i - m_i (centred: less its mean), a whole curve has n + 2 residuals
+ *
+ *     e_i / (s sqrt n)                                   i < n
+ *     correlation (1 - r)                                r: Pearson's, 0 where y is constant
+ *     range ln max(k, 0.1)                               k: range of y over that of m
+ *
+ * and a number of a curve (its range, peak or lowest value) one, (number of y - that of m) / s.
+ * Their sum of squares z is 1 where the curve is off by one deviation. A block whose z is above the
+ * cap is shortened, so that one curve does not outweigh all others and no gradient is lost:
+ *
+ *     z -> cap + ln(z / cap)
+ *
+ * A solve that failed counts 2 cap for each of its targets, more than any curve in practice. */
 #include "formats/paths.h"
-#include "formats/read_file.h"
-#include "formats/text_hash.h"
+#include "people/compare.h"
 #include "study/fit.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_REFERENCE_BYTES = 64 << 20, LIST = 400 };
+enum { LIST = 400, LEAST_POINTS = 3 };
+
+static const double least_ratio = 0.1;
 
 /* ------------------------------------------------------------------ overrides */
 
@@ -40,20 +57,24 @@ static int find_earlier(const ambulo_fit *fit, int before, const char *name) {
   return -1;
 }
 
+/* a name that is none of names[count]; `what` says so, with one %s */
+static void unknown_name(const ambulo__yaml_node *node, const char *const *names, int count,
+                         const char *lead, const char *expected) {
+  char hint[LIST];
+  const char *word = ambulo__yaml_text(node), *near = ambulo__nearest(word, names, (size_t)count);
+  (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, near ? hint : NULL, "%s (got '%s'); expected %s",
+                           lead, word, expected);
+}
+
 static void read_after(const ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
   ambulo__fit_condition *c = &fit->condition[index];
   const char *names[AMBULO__FIT_CONDITIONS];
-  char hint[LIST];
   if (!node) return;
-  const char *word = ambulo__yaml_text(node);
-  c->after = find_earlier(fit, index, word);
-  if (c->after >= 0) return;
+  c->after = find_earlier(fit, index, ambulo__yaml_text(node));
   for (int i = 0; i < index; i++) names[i] = fit->condition[i].name;
-  const char *near = ambulo__nearest(word, names, (size_t)index);
-  (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
-  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, near ? hint : NULL,
-                           "no condition '%s' stands before this one; expected the name of one",
-                           word);
+  if (c->after < 0)
+    unknown_name(node, names, index, "'after' names no earlier condition", "the name of one");
 }
 
 static ambulo_status read_condition(ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
@@ -81,12 +102,7 @@ static ambulo_status read_condition(ambulo_fit *fit, int index, const ambulo__ya
 }
 
 ambulo_status ambulo__fit_read_conditions(ambulo_fit *fit, const ambulo__yaml_node *node) {
-  int count = ambulo__yaml_items(node), fitted = 0;
-  if (node && (count < 1 || count > AMBULO__FIT_CONDITIONS)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d conditions; expected 1 to %d", count,
-                             AMBULO__FIT_CONDITIONS);
-    return AMBULO_OK;
-  }
+  int count = ambulo__fit_count(node, AMBULO__FIT_CONDITIONS, "conditions"), fitted = 0;
   fit->condition = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *fit->condition);
   if (!fit->condition) return AMBULO_E_MEMORY;
   fit->conditions = count;
@@ -111,29 +127,24 @@ static int is_wanted(const ambulo__fit_condition *c, const char *name) {
   return c->curves_node == NULL;
 }
 
-/* names of the list `curves` that are curves of the distance, and that one of them counts */
+/* The names of the list `curves` must be curves of the distance, and one of them must count. */
 static void check_names(const ambulo_fit *fit, const ambulo__fit_condition *c) {
   const char *names[AMBULO__FIT_CURVES];
   double weights = 0.0;
-  int strangers = 0;
-  int count = c->curves_node ? ambulo__yaml_items(c->curves_node) : 0;
-  for (int k = 0; k < fit->curves; k++) names[k] = fit->curve[k].name;
+  int unknown = 0, count = c->curves_node ? ambulo__yaml_items(c->curves_node) : 0;
+  for (int k = 0; k < fit->curves; k++) {
+    names[k] = fit->curve[k].name;
+    if (is_wanted(c, names[k])) weights += fit->curve[k].weight;
+  }
   for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(c->curves_node, i);
-    const char *word = ambulo__yaml_text(item);
     int known = 0;
-    for (int k = 0; k < fit->curves; k++) known |= strcmp(names[k], word) == 0;
-    if (known) continue;
-    strangers++;
-    const char *near = ambulo__nearest(word, names, (size_t)fit->curves);
-    char hint[LIST];
-    (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
-    (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, near ? hint : NULL,
-                             "distance.curves has no '%s'; expected some of its curves", word);
+    for (int k = 0; k < fit->curves; k++) known |= strcmp(names[k], ambulo__yaml_text(item)) == 0;
+    if (!known)
+      unknown_name(item, names, fit->curves, "no curve of 'distance'", "some of its curves");
+    unknown |= !known;
   }
-  for (int k = 0; k < fit->curves; k++)
-    if (is_wanted(c, names[k])) weights += fit->curve[k].weight;
-  if (!(weights > 0.0) && !strangers)
+  if (!(weights > 0.0) && !unknown)
     (void)ambulo__yaml_error(c->curves_node, AMBULO_E_SCHEMA, NULL,
                              "condition '%s' has no curve with a weight above 0; expected one",
                              c->name);
@@ -179,11 +190,12 @@ static void cut_out(const ambulo__fit_curve *curve, const ambulo__reference_curv
 
 static void check_target(const ambulo__fit_condition *c, const ambulo__fit_curve *curve,
                          const ambulo__fit_target *t) {
-  if (t->points < 3)
+  if (t->points < LEAST_POINTS)
     (void)ambulo__yaml_error(curve->node, AMBULO_E_SCHEMA, NULL,
                              "the reference of condition '%s' has %d points of '%s' between %g and "
-                             "%g percent; expected at least 3",
-                             c->name, t->points, curve->curve, curve->from, curve->to);
+                             "%g percent; expected at least %d",
+                             c->name, t->points, curve->curve, curve->from, curve->to,
+                             LEAST_POINTS);
   else if (!(t->sd > 0.0))
     (void)ambulo__yaml_error(curve->node, AMBULO_E_SCHEMA,
                              "write it as {weight: 1, sd: 3}, in the unit of the curve",
@@ -218,21 +230,7 @@ static ambulo_status make_targets(ambulo_fit *fit, ambulo__fit_condition *c) {
   return AMBULO_OK;
 }
 
-static ambulo_status hash_file(ambulo_fit *fit, const char *path) {
-  char *text = NULL;
-  size_t length = 0;
-  ambulo_status status = ambulo__read_file(path, MOST_REFERENCE_BYTES, &fit->allocator,
-                                           fit->diagnostics, &text, &length);
-  if (!status) fit->hash = ambulo__hash_text(fit->hash, text);
-  ambulo__free(&fit->allocator, text);
-  return status;
-}
-
 ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
-  if (fit->compare.map) {
-    ambulo_status status = hash_file(fit, fit->compare.map);
-    if (status) return status;
-  }
   for (int i = 0; i < fit->conditions; i++) {
     ambulo__fit_condition *c = &fit->condition[i];
     ambulo_status status = ambulo__people_read(c->reference, fit->compare.map, &fit->allocator,
@@ -241,9 +239,73 @@ ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
     if (status)
       return ambulo__yaml_error(c->reference_node, status, NULL,
                                 "the reference '%s' could not be read", c->reference);
-    status = hash_file(fit, c->reference);
-    if (!status) status = make_targets(fit, c);
+    status = make_targets(fit, c);
     if (status) return status;
   }
   return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------ residuals */
+
+static double extreme(const double *y, int n, double sign) {
+  double most = sign * y[0];
+  for (int i = 1; i < n; i++) most = fmax(most, sign * y[i]);
+  return sign * most;
+}
+
+static double range_of(const double *y, int n) {
+  return extreme(y, n, 1.0) - extreme(y, n, -1.0);
+}
+
+static double number_of(ambulo__fit_of of, const double *y, int n) {
+  if (of == AMBULO__FIT_RANGE) return range_of(y, n);
+  return extreme(y, n, of == AMBULO__FIT_PEAK ? 1.0 : -1.0);
+}
+
+/* residual [n + 2], before the cap */
+static void fill_curve(const ambulo_fit *fit, const ambulo__fit_target *t, const double *y,
+                       double *residual, const ambulo__fit_score *score) {
+  int n = t->points;
+  double mean = 0.0, scale = 1.0 / (t->sd * sqrt((double)n));
+  for (int i = 0; i < n; i++) mean += (y[i] - t->mean[i]) / (double)n;
+  if (!fit->curve[t->curve].centred) mean = 0.0;
+  for (int i = 0; i < n; i++) residual[i] = scale * (y[i] - t->mean[i] - mean);
+  double r = isnan(score->r) ? 0.0 : score->r;
+  residual[n] = fit->correlation * (1.0 - r);
+  residual[n + 1] = fit->range_cost * log(fmax(score->ratio, least_ratio));
+}
+
+static void shorten(double cap, double *residual, int count, ambulo__fit_score *score) {
+  double z = 0.0;
+  for (int i = 0; i < count; i++) z += residual[i] * residual[i];
+  score->z = z > cap ? cap + log(z / cap) : z;
+  if (!(z > cap)) return;
+  double factor = sqrt(score->z / z);
+  for (int i = 0; i < count; i++) residual[i] *= factor;
+}
+
+void ambulo__fit_residual(const ambulo_fit *fit, const ambulo__fit_target *t, const double *y,
+                          double *residual, ambulo__fit_score *score) {
+  ambulo__fit_of of = fit->curve[t->curve].of;
+  if (!y) {
+    for (int i = 0; i < t->count; i++) residual[i] = sqrt(2.0 * fit->cap / (double)t->count);
+    *score = (ambulo__fit_score){2.0 * fit->cap, (double)NAN, (double)NAN,
+                                 (double)NAN,    (double)NAN, (double)NAN};
+    return;
+  }
+  double theirs = range_of(t->mean, t->points), ours = range_of(y, t->points), squares = 0.0;
+  *score = (ambulo__fit_score){.r = (double)NAN, .value = (double)NAN, .reference = (double)NAN};
+  score->ratio = theirs > 0.0 ? ours / theirs : 1.0;
+  if (of == AMBULO__FIT_CURVE) {
+    for (int i = 0; i < t->points; i++) squares += (y[i] - t->mean[i]) * (y[i] - t->mean[i]);
+    score->rmse = sqrt(squares / (double)t->points);
+    score->r = ambulo__correlation(y, t->mean, t->points);
+    fill_curve(fit, t, y, residual, score);
+  } else {
+    score->value = number_of(of, y, t->points);
+    score->reference = number_of(of, t->mean, t->points);
+    score->rmse = fabs(score->value - score->reference);
+    residual[0] = (score->value - score->reference) / t->sd;
+  }
+  shorten(fit->cap, residual, t->count, score);
 }

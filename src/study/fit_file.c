@@ -1,21 +1,27 @@
-/* study/fit_file.c - reading a fit file (fit.h, docs/guide-fit.md). */
+/* study/fit_file.c - reading a fit file: parameters, distance, method (fit.h, docs/guide-fit.md).
+ */
 #include "formats/paths.h"
-#include "ambulo/tools/compare.h"
 #include "formats/read_file.h"
 #include "formats/text_hash.h"
 #include "study/fit.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-enum { MOST_FIT_BYTES = 16 << 20 };
 
 static const double least_step = 1e-6, radians_per_degree = 0.017453292519943295;
 
+int ambulo__fit_count(const ambulo__yaml_node *node, int most, const char *what) {
+  int count = ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_pairs(node)
+                                                          : ambulo__yaml_items(node);
+  if (!node || (count >= 1 && count <= most)) return count;
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d %s; expected 1 to %d", count, what,
+                           most);
+  return 0;
+}
+
 /* ----------------------------------------------------------------- parameters */
 
-/* the key stands in another parameter, or here before: its value would be whose? */
+/* whether the key stands in an earlier parameter, or earlier in this one */
 static int is_taken(const ambulo_fit *fit, int parameter, int before, const char *key) {
   for (int i = 0; i <= parameter; i++) {
     const ambulo__fit_parameter *p = &fit->parameter[i];
@@ -27,12 +33,7 @@ static int is_taken(const ambulo_fit *fit, int parameter, int before, const char
 
 static ambulo_status read_keys(ambulo_fit *fit, int index, const ambulo__yaml_node *node) {
   ambulo__fit_parameter *p = &fit->parameter[index];
-  int count = ambulo__yaml_items(node);
-  if (node && (count < 1 || count > AMBULO__FIT_KEYS)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d keys; expected 1 to %d", count,
-                             AMBULO__FIT_KEYS);
-    return AMBULO_OK;
-  }
+  int count = ambulo__fit_count(node, AMBULO__FIT_KEYS, "keys");
   p->key = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *p->key);
   if (!p->key) return AMBULO_E_MEMORY;
   for (int k = 0; k < count; k++) {
@@ -100,18 +101,85 @@ static ambulo_status read_parameter(ambulo_fit *fit, int index, const ambulo__ya
 }
 
 static ambulo_status read_parameters(ambulo_fit *fit, const ambulo__yaml_node *node) {
-  int count = ambulo__yaml_items(node);
-  if (node && (count < 1 || count > AMBULO__FIT_PARAMETERS)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d parameters; expected 1 to %d", count,
-                             AMBULO__FIT_PARAMETERS);
-    return AMBULO_OK;
-  }
+  int count = ambulo__fit_count(node, AMBULO__FIT_PARAMETERS, "parameters");
   fit->parameter = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *fit->parameter);
   if (!fit->parameter) return AMBULO_E_MEMORY;
   fit->parameters = count;
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < count && !status; i++)
     status = read_parameter(fit, i, ambulo__yaml_item(node, i));
+  return status;
+}
+
+/* ------------------------------------------------------------------- distance */
+
+static void read_between(ambulo__fit_curve *c, const ambulo__yaml_node *node) {
+  double between[2] = {0.0, 100.0};
+  if (!ambulo__yaml_numbers(node, 2, between)) return;
+  c->from = between[0];
+  c->to = between[1];
+  if (!(between[0] >= 0.0 && between[0] < between[1] && between[1] <= 100.0))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "between %g and %g; expected two rising percents of the cycle, from 0 "
+                             "to 100",
+                             between[0], between[1]);
+}
+
+/* a weight alone, or a mapping */
+static void read_curve(ambulo__fit_curve *c, const char *name, const ambulo__yaml_node *node) {
+  static const char *const kinds[] = {"curve", "range", "peak", "lowest"};
+  *c = (ambulo__fit_curve){name, name, AMBULO__FIT_CURVE, 1.0, 0.0, 0.0, 100.0, 0, node};
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    c->weight = ambulo__yaml_number_in(node, 0.0, 1e6, 1.0);
+    return;
+  }
+  const ambulo__yaml_node *curve = ambulo__yaml_get(node, "curve");
+  const ambulo__yaml_node *centred = ambulo__yaml_get(node, "centred");
+  const ambulo__yaml_node *sd = ambulo__yaml_get(node, "sd");
+  if (curve) c->curve = ambulo__yaml_text(curve);
+  c->of = (ambulo__fit_of)ambulo__yaml_choice(ambulo__yaml_get(node, "of"), kinds, 4, 0);
+  c->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e6, 1.0);
+  c->centred = ambulo__yaml_boolean(centred, 0);
+  c->sd = ambulo__yaml_number_in(sd, 0.0, 1e9, 0.0);
+  if (sd && !(c->sd > 0.0))
+    (void)ambulo__yaml_error(sd, AMBULO_E_SCHEMA, NULL,
+                             "a deviation of %g; expected one above 0, in the unit of the curve",
+                             c->sd);
+  if (c->centred && c->of != AMBULO__FIT_CURVE)
+    (void)ambulo__yaml_error(centred, AMBULO_E_SCHEMA, NULL,
+                             "'centred' is of whole curves; expected it without 'of: %s'",
+                             kinds[c->of]);
+  read_between(c, ambulo__yaml_get(node, "between"));
+  ambulo__yaml_close(node);
+}
+
+static ambulo_status read_curves(ambulo_fit *fit, const ambulo__yaml_node *curves) {
+  int count = ambulo__fit_count(curves, AMBULO__FIT_CURVES, "curves");
+  fit->curve = ambulo__alloc(&fit->allocator, (size_t)count, sizeof *fit->curve);
+  if (!fit->curve) return AMBULO_E_MEMORY;
+  double sum = 0.0;
+  for (int i = 0; i < count; i++) {
+    const char *name = ambulo__yaml_key(curves, i);
+    ambulo__yaml_expect(curves, name);
+    read_curve(&fit->curve[i], name, ambulo__yaml_value(curves, i));
+    sum += fit->curve[i].weight;
+  }
+  fit->curves = count;
+  if (count > 0 && !(sum > 0.0))
+    (void)ambulo__yaml_error(curves, AMBULO_E_SCHEMA, NULL,
+                             "all weights are 0; expected one above 0");
+  return AMBULO_OK;
+}
+
+static ambulo_status read_distance(ambulo_fit *fit, const ambulo__yaml_node *node) {
+  if (!node) return AMBULO_OK;
+  fit->correlation =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "correlation"), 0.0, 1e6, fit->correlation);
+  fit->range_cost =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "range"), 0.0, 1e6, fit->range_cost);
+  fit->cap = ambulo__yaml_number_in(ambulo__yaml_get(node, "cap"), 1e-3, 1e9, fit->cap);
+  ambulo_status status = read_curves(fit, ambulo__yaml_require(node, "curves"));
+  ambulo__yaml_close(node);
   return status;
 }
 
@@ -165,18 +233,10 @@ static ambulo_status read_compare(ambulo_fit *fit, const ambulo__yaml_node *node
   return status;
 }
 
-/* a fault in one section must not make strangers of those that would have been read after it */
-static void expect_all(const ambulo__yaml_node *root) {
-  static const char *const keys[] = {"parameters", "conditions", "distance",
-                                     "method",     "limits",     "compare"};
-  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) ambulo__yaml_expect(root, keys[i]);
-}
-
 static ambulo_status read_sections(ambulo_fit *fit) {
   const ambulo__yaml_node *root = ambulo__yaml_root(fit->document);
   static const char *const kinds[] = {"fit"};
   if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return AMBULO_OK;
-  expect_all(root);
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
   fit->name = ambulo__yaml_name(ambulo__yaml_require(root, "name"));
   const ambulo__yaml_node *problem = ambulo__yaml_require(root, "problem");
@@ -186,7 +246,7 @@ static ambulo_status read_sections(ambulo_fit *fit) {
   if (!status) status = read_compare(fit, ambulo__yaml_get(root, "compare"));
   if (!status) status = read_parameters(fit, ambulo__yaml_require(root, "parameters"));
   if (!status) status = ambulo__fit_read_conditions(fit, ambulo__yaml_require(root, "conditions"));
-  if (!status) status = ambulo__fit_read_distance(fit, ambulo__yaml_require(root, "distance"));
+  if (!status) status = read_distance(fit, ambulo__yaml_require(root, "distance"));
   if (status) return status;
   read_method(fit, ambulo__yaml_get(root, "method"));
   read_limits(fit, ambulo__yaml_get(root, "limits"));
@@ -194,26 +254,33 @@ static ambulo_status read_sections(ambulo_fit *fit) {
   return AMBULO_OK;
 }
 
-static ambulo_status hash_own_text(ambulo_fit *fit) {
-  char *text = NULL;
-  size_t length = 0;
-  ambulo_status status = ambulo__read_file(fit->path, MOST_FIT_BYTES, &fit->allocator,
-                                           fit->diagnostics, &text, &length);
-  if (!status) fit->hash = ambulo__hash_text(AMBULO__HASH_START, text);
-  ambulo__free(&fit->allocator, text);
+static ambulo_status hash_file(ambulo_fit *fit, const char *path) {
+  char digest[AMBULO__SHA256_TEXT];
+  ambulo_status status = path ? ambulo__digest_file(path, fit->diagnostics, digest) : AMBULO_OK;
+  if (path && !status) fit->hash = ambulo__hash_text(fit->hash, digest);
+  return status;
+}
+
+static ambulo_status hash_inputs(ambulo_fit *fit) {
+  const char *const paths[] = {fit->path, fit->problem, fit->compare.map};
+  ambulo_status status = AMBULO_OK;
+  fit->hash = AMBULO__HASH_START;
+  for (int i = 0; i < 3 && !status; i++) status = hash_file(fit, paths[i]);
+  for (int i = 0; i < fit->conditions && !status; i++)
+    status = hash_file(fit, fit->condition[i].reference);
   return status;
 }
 
 static ambulo_status read_all(ambulo_fit *fit) {
-  ambulo_status status = hash_own_text(fit);
-  if (!status)
-    status = ambulo__yaml_load(fit->path, &fit->allocator, fit->diagnostics, &fit->document);
+  ambulo_status status =
+      ambulo__yaml_load(fit->path, &fit->allocator, fit->diagnostics, &fit->document);
   if (!status) status = read_sections(fit);
   if (!status) status = ambulo__yaml_finish(fit->document);
   if (!status) status = ambulo__fit_read_references(fit);
   if (!status) status = ambulo__yaml_finish(fit->document);
   if (!status) status = ambulo__fit_read_keys(fit);
-  return status ? status : ambulo__yaml_finish(fit->document);
+  if (!status) status = ambulo__yaml_finish(fit->document);
+  return status ? status : hash_inputs(fit);
 }
 
 /* ---------------------------------------------------------------- entry points */

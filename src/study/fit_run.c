@@ -1,22 +1,30 @@
 /* study/fit_run.c - ambulo_fit_run: folder, first solves, search, held-out conditions, results.
  *
+ * DIR/fit_inputs.json: hash of what the folder was filled from. DIR/solves: the batch folder of its
+ * solves. DIR/fit.json, DIR/fitted.yaml: results. DIR/lock: held while a fit runs in it.
+ *
  * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml`
  * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
  * valley that zero does not find. */
-#include "ambulo/tools/report.h"
+#include "base/clock.h"
 #include "base/sized.h"
 #include "formats/atomic_file.h"
-#include "base/clock.h"
+#include "formats/file_steps.h"
+#include "formats/json_text.h"
+#include "formats/output_check.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
+#include "formats/text_hash.h"
+#include "study/batch_lock.h"
 #include "study/case_path.h"
-#include "study/fitted_problem.h"
-#include "study/fit_folder.h"
-#include "study/fit_outcome.h"
+#include "study/fit.h"
 
+#include <dirent.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { TRIALS = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
 
@@ -35,35 +43,109 @@ typedef struct run {
   ambulo_diagnostics *diagnostics;
   ambulo__fit_runner runner;
   ambulo__fit_outcome outcome;
-  ambulo__fit_sizes sizes;
-  double *lower; /* [2][parameters] bounds of u */
 } run;
+
+static ambulo_status write_file(const run *r, const char *name, const ambulo__text_buffer *text) {
+  char *path = ambulo__join_paths(&r->allocator, r->directory, name, NULL);
+  ambulo_status status = path ? ambulo__text_status(text) : AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo__write_file(path, ambulo__text_data(text), text->length, 1, &r->allocator,
+                                r->diagnostics);
+  ambulo__free(&r->allocator, path);
+  return status;
+}
+
+/* ---------------------------------------------------------------------- folder */
+
+/* E_IO where the folder holds anything but what a fit leaves that was stopped before it had written
+ * its inputs */
+static ambulo_status expect_empty(const run *r) {
+  DIR *stream = opendir(r->directory);
+  if (!stream) return ambulo__io_error(r->diagnostics, r->directory, "read the folder");
+  ambulo_status status = AMBULO_OK;
+  const struct dirent *entry;
+  while (!status && (errno = 0, entry = readdir(stream))) {
+    const char *name = entry->d_name;
+    ambulo__place place = {r->directory, 0, 0, NULL};
+    if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && strcmp(name, "lock") != 0 &&
+        strncmp(name, "fit_inputs.json.tmp-", 20) != 0)
+      status = ambulo__error(r->diagnostics, AMBULO_E_IO, place, NULL,
+                             "the folder holds other files ('%.80s'); expected a new, an empty or "
+                             "a fit's folder",
+                             name);
+  }
+  if (!status && errno) status = ambulo__io_error(r->diagnostics, r->directory, "read the folder");
+  (void)closedir(stream);
+  return status;
+}
+
+static ambulo_status make_folder(const run *r) {
+  struct stat entry;
+  if (mkdir(r->directory, 0777) == 0) return AMBULO_OK;
+  if (errno == EEXIST && stat(r->directory, &entry) == 0 && !S_ISDIR(entry.st_mode))
+    errno = ENOTDIR;
+  return errno == EEXIST ? AMBULO_OK
+                         : ambulo__io_error(r->diagnostics, r->directory, "create the folder");
+}
+
+/* what the fit and its problem are made of */
+static void describe_inputs(const run *r, ambulo__text_buffer *text) {
+  ambulo__json json = {text, 0, 1};
+  ambulo__json_open(&json, NULL, '{');
+  ambulo__json_text(&json, "schema", "ambulo-fit-inputs/2");
+  ambulo__json_hash(&json, "hash", ambulo__hash_word(r->fit->hash, r->runner.sweep->base_hash));
+  ambulo__json_close(&json, '}');
+  ambulo__text_append_char(text, '\n');
+}
+
+/* E_PROBLEM where the folder is of other inputs */
+static ambulo_status compare_inputs(const run *r, const char *path,
+                                    const ambulo__text_buffer *inputs) {
+  if (ambulo__text_status(inputs)) return AMBULO_E_MEMORY;
+  if (ambulo__file_says(path, ambulo__text_data(inputs), inputs->length)) return AMBULO_OK;
+  ambulo__place place = {path, 0, 0, NULL};
+  return ambulo__error(r->diagnostics, AMBULO_E_PROBLEM, place,
+                       "--force continues in it and keeps the solves whose inputs are the same; or "
+                       "give another folder",
+                       "the fit file, its problem, model or references, or the version of ambulo "
+                       "changed since the folder was filled; expected the same inputs");
+}
+
+/* Makes DIR the folder of this fit and locks it. One that holds other things is refused, and one of
+ * a fit with other inputs unless force = 1. Errors: E_IO, E_PROBLEM, E_MEMORY. */
+static ambulo_status prepare_folder(const run *r, ambulo__lock *lock) {
+  ambulo_status status = ambulo__expect_path(r->directory, "folder", r->diagnostics);
+  if (!status) status = make_folder(r);
+  if (status) return status;
+  ambulo__text_buffer inputs;
+  ambulo__text_init(&inputs, &r->allocator);
+  describe_inputs(r, &inputs);
+  char *path = ambulo__join_paths(&r->allocator, r->directory, "fit_inputs.json", NULL);
+  if (!path) status = AMBULO_E_MEMORY;
+  int is_ours = path && ambulo__file_says(path, "\"ambulo-fit-inputs/", 64);
+  if (!status && !is_ours) status = expect_empty(r);
+  if (!status) status = ambulo__lock_take(r->directory, 1, 1, &r->allocator, r->diagnostics, lock);
+  if (!status && is_ours && !r->runner.options->force) status = compare_inputs(r, path, &inputs);
+  if (!status) status = write_file(r, "fit_inputs.json", &inputs);
+  ambulo__free(&r->allocator, path);
+  ambulo__text_free(&inputs);
+  return status;
+}
 
 /* ---------------------------------------------------------------------- course */
 
-static ambulo_status note_step(run *r, const ambulo__fit_step *step) {
+static ambulo_status note(void *user, const ambulo__fit_step *step) {
+  run *r = user;
   ambulo__fit_outcome *o = &r->outcome;
-  if (o->entries == o->capacity) {
-    int capacity = o->capacity ? 2 * o->capacity : 64;
-    ambulo__fit_entry *entry =
-        ambulo__realloc(&r->allocator, o->entry, (size_t)capacity, sizeof *entry);
-    if (!entry) return AMBULO_E_MEMORY;
-    o->entry = entry;
-    o->capacity = capacity;
-  }
   o->entry[o->entries++] = (ambulo__fit_entry){*step, r->runner.sweep->case_count};
   r->runner.progress.iteration = o->entries - 1;
   r->runner.progress.best = step->distance;
   return AMBULO_OK;
 }
 
-static ambulo_status note(void *user, const ambulo__fit_step *step) {
-  return note_step(user, step);
-}
-
 static ambulo_status refresh(void *user, ambulo__fit_trial *best) {
   run *r = user;
-  return ambulo__fit_refresh(&r->runner, &r->sizes, best);
+  return ambulo__fit_refresh(&r->runner, best);
 }
 
 static ambulo_status evaluate(void *user, const ambulo__fit_trial *from, ambulo__fit_trial *trials,
@@ -119,24 +201,18 @@ static ambulo_status check_first(const run *r, const ambulo__fit_trial *first) {
 
 static ambulo_status improve(run *r) {
   ambulo__fit_outcome *o = &r->outcome;
-  ambulo__fit_task task = {.sizes = r->sizes,
-                           .lower = r->lower,
-                           .upper = r->lower + r->fit->parameters,
-                           .ridge = r->fit->ridge,
-                           .tolerance = r->fit->tolerance,
-                           .iterations = r->fit->iterations,
+  ambulo__fit_task task = {.fit = r->fit,
                            .allocator = &r->allocator,
                            .evaluate = evaluate,
                            .refresh = refresh,
                            .note = note,
                            .user = r};
   ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *best = &o->trial[AMBULO__FIT_BEST];
-  first->cost = ambulo__fit_cost(&task, first);
-  ambulo__fit_trial_copy(&r->sizes, first, best);
+  first->cost = ambulo__fit_cost(r->fit, first);
+  ambulo__fit_trial_copy(r->fit, first, best);
   r->runner.progress.first = first->distance;
   ambulo__fit_step start = {first->distance, first->cost, (double)NAN, 0, "start"};
-  ambulo_status status = note_step(r, &start);
-  if (status) return status;
+  (void)note(r, &start);
   return ambulo__fit_search(&task, best, o->sensitivity, &o->ending, &o->stuck);
 }
 
@@ -146,39 +222,29 @@ static ambulo_status judge(run *r) {
   ambulo__fit_outcome *o = &r->outcome;
   const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST],
                           *best = &o->trial[AMBULO__FIT_BEST];
-  size_t bytes = (size_t)r->fit->parameters * sizeof *best->u;
   ambulo__fit_trial *apart = &o->trial[AMBULO__FIT_APART], *cold = &o->trial[AMBULO__FIT_COLD];
-  memcpy(apart->u, best->u, bytes);
-  memcpy(cold->u, best->u, bytes);
+  memcpy(apart->u, best->u, sizeof best->u);
+  memcpy(cold->u, best->u, sizeof best->u);
   (void)snprintf(apart->label, sizeof apart->label, "fitted");
   (void)snprintf(cold->label, sizeof cold->label, "fitted, from zero");
   ambulo_status status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_HELD_OUT, first, apart, 1);
   if (!status) status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_FROM_ZERO, NULL, cold, 1);
   if (status || !cold->complete) return status;
-  return ambulo__fit_take_better(&r->runner, &r->sizes, cold, apart);
+  return ambulo__fit_take_better(&r->runner, cold, apart);
 }
 
 /* ---------------------------------------------------------------------- results */
 
-static ambulo_status write_file(const run *r, const char *name, const ambulo__text_buffer *text) {
-  char *path = ambulo__join_paths(&r->allocator, r->directory, name, NULL);
-  ambulo_status status = path ? ambulo__text_status(text) : AMBULO_E_MEMORY;
-  if (!status)
-    status = ambulo__write_file(path, ambulo__text_data(text), text->length, 1, &r->allocator,
-                                r->diagnostics);
-  ambulo__free(&r->allocator, path);
-  return status;
-}
-
-static void tell_missing_keys(const run *r) {
+static void note_missing_keys(const run *r) {
   for (int i = 0; i < r->fit->parameters; i++) {
     const ambulo__fit_parameter *p = &r->fit->parameter[i];
     for (int k = 0; k < p->keys; k++)
       if (isnan(p->in_file[k]))
-        ambulo__note(r->diagnostics, ambulo__yaml_place(p->node),
-                     "'%s' stands in conditions only: fitted.yaml is without it, the conditions' "
-                     "'settings' in fit.json have it",
-                     p->key[k]);
+        ambulo__note(
+            r->diagnostics, ambulo__yaml_place(p->node),
+            "only conditions set '%s': fitted.yaml lacks it, the conditions' 'settings' in "
+            "fit.json have it",
+            p->key[k]);
   }
 }
 
@@ -196,7 +262,7 @@ static ambulo_status write_results(run *r, char **report) {
   if (!status && !copy) status = AMBULO_E_MEMORY;
   if (!status) status = write_file(r, "fitted.yaml", &problem);
   if (!status) status = write_file(r, "fit.json", &json);
-  if (!status) tell_missing_keys(r);
+  if (!status) note_missing_keys(r);
   if (!status && report) {
     *report = copy;
     copy = NULL;
@@ -211,24 +277,16 @@ static ambulo_status write_results(run *r, char **report) {
 /* ------------------------------------------------------------------------- run */
 
 static ambulo_status prepare(run *r) {
-  const ambulo_fit *fit = r->fit;
-  size_t n = (size_t)fit->parameters;
-  r->sizes = (ambulo__fit_sizes){fit->parameters, fit->residuals, fit->conditions, fit->curves};
-  r->outcome.fit = fit;
-  r->outcome.runner = &r->runner;
-  r->outcome.stuck = -1;
-  r->outcome.trial = ambulo__fit_trials_make(&r->sizes, TRIALS, &r->allocator);
-  r->outcome.sensitivity = ambulo__alloc(&r->allocator, n, sizeof *r->outcome.sensitivity);
-  r->lower = ambulo__alloc(&r->allocator, 2 * n, sizeof *r->lower);
-  if (!r->outcome.trial || !r->outcome.sensitivity || !r->lower) return AMBULO_E_MEMORY;
-  for (size_t i = 0; i < n; i++) {
-    r->outcome.sensitivity[i] = (double)NAN;
-    r->lower[i] = fit->parameter[i].lower;
-    r->lower[n + i] = fit->parameter[i].upper;
-  }
-  r->runner.progress.iterations = fit->iterations;
-  r->runner.progress.expected = ambulo__fit_expected(fit);
-  return AMBULO_OK;
+  ambulo__fit_outcome *o = &r->outcome;
+  o->fit = r->fit;
+  o->runner = &r->runner;
+  o->stuck = -1;
+  for (int i = 0; i < AMBULO__FIT_PARAMETERS; i++) o->sensitivity[i] = (double)NAN;
+  o->trial = ambulo__fit_trials_make(r->fit, TRIALS, &r->allocator);
+  o->entry = ambulo__alloc(&r->allocator, (size_t)r->fit->iterations + 1, sizeof *o->entry);
+  r->runner.progress.iterations = r->fit->iterations;
+  r->runner.progress.expected = ambulo__fit_expected(r->fit);
+  return o->trial && o->entry ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
 static ambulo_status run_locked(run *r, char **report) {
@@ -240,7 +298,7 @@ static ambulo_status run_locked(run *r, char **report) {
     r->outcome.ending = AMBULO_FIT_INTERRUPTED;
     return AMBULO_OK;
   }
-  status = ambulo__fit_refresh(&r->runner, &r->sizes, first);
+  status = ambulo__fit_refresh(&r->runner, first);
   if (!status) status = check_first(r, first);
   if (!status) status = improve(r);
   if (!status) status = judge(r);
@@ -266,16 +324,14 @@ ambulo_status ambulo_fit_run(const ambulo_fit *fit, const char *directory,
   ambulo_status status =
       ambulo__fit_runner_open(fit, directory, &o, &r.allocator, diagnostics, &r.runner);
   if (!status) status = prepare(&r);
-  if (!status) status = ambulo__fit_folder_prepare(&r.runner, directory, &lock);
+  if (!status) status = prepare_folder(&r, &lock);
   if (!status) status = run_locked(&r, report);
   ambulo__lock_release(&lock);
   r.runner.progress.seconds = ambulo__seconds_now() - r.runner.begin;
   if (!status) r.runner.progress.ending = r.outcome.ending;
   if (end) *end = r.runner.progress;
   ambulo__free(&r.allocator, r.outcome.trial);
-  ambulo__free(&r.allocator, r.outcome.sensitivity);
   ambulo__free(&r.allocator, r.outcome.entry);
-  ambulo__free(&r.allocator, r.lower);
   ambulo__fit_runner_close(&r.runner);
   return ambulo__conclude(diagnostics, errors, status, directory);
 }

@@ -1,5 +1,5 @@
 /* study/fit_search.c - from the file's parameters to better ones: Levenberg-Marquardt
- * (fit_trial.h).
+ * (fit.h).
  *
  * An iteration at u, whose residuals are r:
  *
@@ -18,7 +18,7 @@
  * J of the residuals, and not the gradient of D alone, because J gives the curvature too. SLSQP on
  * D itself, with the same J, ended at a D of 0.076 after 519 solves for 12 prices and phases of
  * models/walk_normal.yaml; this search ends at 0.060 after 147. */
-#include "study/fit_trial.h"
+#include "study/fit.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -33,6 +33,7 @@ static const double least_gain = 1e-6, least_distance = 1e-6;
 
 typedef struct search {
   const ambulo__fit_task *task;
+  const ambulo_fit *fit;
   ambulo__fit_trial *best;
   ambulo__fit_trial *trial; /* [parameters + DAMPINGS] differences, then candidates */
   double *jacobian;         /* [parameters][residuals] */
@@ -47,7 +48,7 @@ static ambulo_status evaluate(search *s, ambulo__fit_trial *trials, int count, i
   ambulo_status status = s->task->evaluate(s->task->user, s->best, trials, count);
   for (int i = 0; i < count && !status; i++) {
     if (!trials[i].complete) *stopped = 1;
-    trials[i].cost = ambulo__fit_cost(s->task, &trials[i]);
+    trials[i].cost = ambulo__fit_cost(s->fit, &trials[i]);
   }
   return status;
 }
@@ -56,7 +57,8 @@ static ambulo_status evaluate(search *s, ambulo__fit_trial *trials, int count, i
 
 /* the difference of parameter i: toward 0, unless a bound is near */
 static double choose_difference(const search *s, int i) {
-  double u = s->best->u[i], up = s->task->upper[i] - u, down = u - s->task->lower[i];
+  double u = s->best->u[i], up = s->fit->parameter[i].upper - u,
+         down = u - s->fit->parameter[i].lower;
   int goes_up = u > 0.0 ? down < difference && up > down : up >= difference || up >= down;
   return goes_up ? fmin(difference, up) : -fmin(difference, down);
 }
@@ -64,9 +66,9 @@ static double choose_difference(const search *s, int i) {
 /* Returns |column|^2; NaN where it is no derivative. */
 static double fill_column(search *s, int i, double h) {
   const ambulo__fit_trial *t = &s->trial[i];
-  int residuals = s->task->sizes.residuals, known = 1;
+  int residuals = s->fit->residuals, known = 1;
   double *column = s->jacobian + (size_t)i * (size_t)residuals, squares = 0.0;
-  for (int c = 0; c < s->task->sizes.conditions; c++)
+  for (int c = 0; c < s->fit->conditions; c++)
     known &= t->index[c] < 0 || t->solved[c] == s->best->solved[c];
   for (int k = 0; k < residuals; k++) {
     column[k] = known ? (t->residual[k] - s->best->residual[k]) / h : 0.0;
@@ -76,7 +78,7 @@ static double fill_column(search *s, int i, double h) {
 }
 
 static ambulo_status differentiate(search *s, double *sensitivity, int *stopped) {
-  int n = s->task->sizes.parameters;
+  int n = s->fit->parameters;
   double h[AMBULO__FIT_PARAMETERS];
   for (int i = 0; i < n; i++) {
     ambulo__fit_trial *t = &s->trial[i];
@@ -102,9 +104,9 @@ static ambulo_status differentiate(search *s, double *sensitivity, int *stopped)
 
 /* a condition without any solution, here and around; -1: none */
 static int find_stuck(const search *s) {
-  for (int c = 0; c < s->task->sizes.conditions; c++) {
+  for (int c = 0; c < s->fit->conditions; c++) {
     int solved = s->best->solved[c] || s->best->index[c] < 0;
-    for (int i = 0; i < s->task->sizes.parameters; i++) solved |= s->trial[i].solved[c];
+    for (int i = 0; i < s->fit->parameters; i++) solved |= s->trial[i].solved[c];
     if (!solved) return c;
   }
   return -1;
@@ -115,8 +117,8 @@ static int find_stuck(const search *s) {
 /* the model at d, and its gradient */
 static double model(unsigned n, const double *d, double *gradient, void *data) {
   search *s = data;
-  size_t residuals = (size_t)s->task->sizes.residuals;
-  double ridge = s->task->ridge / n, damping = s->damping * s->trace / n, value = 0.0;
+  size_t residuals = (size_t)s->fit->residuals;
+  double ridge = s->fit->ridge / n, damping = s->damping * s->trace / n, value = 0.0;
   memcpy(s->row, s->best->residual, residuals * sizeof *s->row);
   for (unsigned i = 0; i < n; i++)
     for (size_t k = 0; k < residuals; k++) s->row[k] += s->jacobian[i * residuals + k] * d[i];
@@ -133,13 +135,13 @@ static double model(unsigned n, const double *d, double *gradient, void *data) {
 /* u [parameters]: the best one and the d of the least model; where NLopt fails, as far as it came
  */
 static ambulo_status minimize_model(search *s, double *u) {
-  int n = s->task->sizes.parameters;
+  int n = s->fit->parameters;
   const double *from = s->best->u;
   double lower[AMBULO__FIT_PARAMETERS], upper[AMBULO__FIT_PARAMETERS],
       d[AMBULO__FIT_PARAMETERS] = {0.0}, least = 0.0;
   for (int i = 0; i < n; i++) {
-    lower[i] = fmin(0.0, fmax(-longest, s->task->lower[i] - from[i]));
-    upper[i] = fmax(0.0, fmin(longest, s->task->upper[i] - from[i]));
+    lower[i] = fmin(0.0, fmax(-longest, s->fit->parameter[i].lower - from[i]));
+    upper[i] = fmax(0.0, fmin(longest, s->fit->parameter[i].upper - from[i]));
   }
   nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)n);
   int failed = !opt || nlopt_set_min_objective(opt, model, s) < 0 ||
@@ -149,13 +151,13 @@ static ambulo_status minimize_model(search *s, double *u) {
                nlopt_optimize(opt, d, &least) == NLOPT_OUT_OF_MEMORY;
   nlopt_destroy(opt);
   for (int i = 0; i < n; i++)
-    u[i] = fmin(s->task->upper[i], fmax(s->task->lower[i], from[i] + d[i]));
+    u[i] = fmin(s->fit->parameter[i].upper, fmax(s->fit->parameter[i].lower, from[i] + d[i]));
   return failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
 static ambulo_status try_candidates(search *s, int *stopped) {
   static const double factors[DAMPINGS] = {0.2, 1.0, 5.0, 25.0};
-  ambulo__fit_trial *candidate = s->trial + s->task->sizes.parameters;
+  ambulo__fit_trial *candidate = s->trial + s->fit->parameters;
   double damping = s->damping;
   ambulo_status status = AMBULO_OK;
   for (int k = 0; k < DAMPINGS && !status; k++) {
@@ -169,19 +171,19 @@ static ambulo_status try_candidates(search *s, int *stopped) {
 
 /* Moves to the best trial, if it is still better after its solutions were refreshed. */
 static ambulo_status accept(search *s) {
-  int n = s->task->sizes.parameters, winner = -1;
+  int n = s->fit->parameters, winner = -1;
   double least = s->best->cost * (1.0 - least_gain);
   for (int i = 0; i < n + DAMPINGS; i++)
     if (s->trial[i].cost < (winner < 0 ? least : s->trial[winner].cost)) winner = i;
   if (winner >= 0) {
     ambulo_status status = s->task->refresh(s->task->user, &s->trial[winner]);
     if (status) return status;
-    s->trial[winner].cost = ambulo__fit_cost(s->task, &s->trial[winner]);
+    s->trial[winner].cost = ambulo__fit_cost(s->fit, &s->trial[winner]);
     if (!(s->trial[winner].cost < least)) winner = -1;
   }
   s->step.damping = winner < n ? (double)NAN : s->tried[winner - n];
   s->step.accepted = winner < 0 ? "none" : winner < n ? "difference" : "candidate";
-  if (winner >= 0) ambulo__fit_trial_copy(&s->task->sizes, &s->trial[winner], s->best);
+  if (winner >= 0) ambulo__fit_trial_copy(s->fit, &s->trial[winner], s->best);
   s->damping = winner < 0 ? 10.0 * s->damping : winner < n ? s->damping : s->step.damping;
   s->damping = fmin(damping_most, fmax(damping_least, s->damping));
   s->step.distance = s->best->distance;
@@ -195,7 +197,7 @@ static ambulo_status iterate(search *s, double *sensitivity, ambulo_fit_ending *
                              int *stuck) {
   int idle = 0, stopped = 0;
   *ending = AMBULO_FIT_ITERATIONS;
-  for (int iteration = 0; iteration < s->task->iterations; iteration++) {
+  for (int iteration = 0; iteration < s->fit->iterations; iteration++) {
     double before = s->best->cost;
     ambulo_status status = differentiate(s, sensitivity, &stopped);
     if (!status && !stopped) {
@@ -209,7 +211,7 @@ static ambulo_status iterate(search *s, double *sensitivity, ambulo_fit_ending *
     status = accept(s);
     if (!status) status = s->task->note(s->task->user, &s->step);
     if (status) return status;
-    idle = before - s->best->cost > s->task->tolerance * before ? 0 : idle + 1;
+    idle = before - s->best->cost > s->fit->tolerance * before ? 0 : idle + 1;
     int ends = idle == MOST_IDLE || s->best->distance < least_distance;
     if (ends) *ending = AMBULO_FIT_CONVERGED;
     if (ends) return AMBULO_OK;
@@ -219,12 +221,13 @@ static ambulo_status iterate(search *s, double *sensitivity, ambulo_fit_ending *
 
 ambulo_status ambulo__fit_search(const ambulo__fit_task *task, ambulo__fit_trial *best,
                                  double *sensitivity, ambulo_fit_ending *ending, int *stuck) {
-  size_t n = (size_t)task->sizes.parameters, m = (size_t)task->sizes.residuals;
+  const ambulo_fit *fit = task->fit;
+  size_t n = (size_t)fit->parameters, m = (size_t)fit->residuals;
   const ambulo_allocator *a = task->allocator;
-  search s = {.task = task, .best = best, .damping = damping_start};
+  search s = {.task = task, .fit = fit, .best = best, .damping = damping_start};
   for (size_t i = 0; i < n; i++) sensitivity[i] = (double)NAN;
   *stuck = -1;
-  s.trial = ambulo__fit_trials_make(&task->sizes, (int)n + DAMPINGS, a);
+  s.trial = ambulo__fit_trials_make(fit, (int)n + DAMPINGS, a);
   s.jacobian = ambulo__alloc(a, n * m, sizeof *s.jacobian);
   s.row = ambulo__alloc(a, m, sizeof *s.row);
   ambulo_status status = AMBULO_E_MEMORY;

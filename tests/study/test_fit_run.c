@@ -4,7 +4,9 @@
 #include "ambulo/solve.h"
 #include "ambulo/tools/compare.h"
 #include "ambulo/tools/load.h"
+#include "study/fit.h"
 #include "support/fit_files.h"
+#include "support/fit_runner.h"
 
 #define TRUE_PRICE 5.0 /* 2.5 times that of the file */
 #define TRUE_LAST 1.2  /* 0.2 more */
@@ -155,6 +157,44 @@ static void the_truth_is_found(void **state) {
   ambulo_fit_free(fit);
 }
 
+/* a bound that keeps from the truth, and held-out conditions by their weights */
+static void fit_json_says_it(void **state) {
+  ambulo_fit *fit = NULL;
+  ambulo_fit_options o = usual(2);
+  ambulo__yaml *document = NULL;
+  fit_world(state);
+  make_truth(state, "time.duration=1.0", "slow.csv");
+  assert_int_equal(
+      fit_load_text(state,
+                    FIT_HEAD "parameters:\n  - {name: price, keys: "
+                             "[\"objective[acceleration].weight\"], range: [0.5, 1.5]}\n"
+                             "conditions:\n  - {name: slow, reference: slow.csv}\n"
+                             "  - {name: one, reference: quick.csv, held_out: true}\n"
+                             "  - {name: three, set: {time.duration: 0.7}, reference: quick.csv, "
+                             "held_out: true, weight: 3}\n" FIT_DISTANCE,
+                    NULL, &fit),
+      AMBULO_OK);
+  assert_int_equal(run(fit, scratch_path(state, "out"), &o, NULL, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_load(scratch_path(state, "out/fit.json"), NULL, NULL, &document),
+                   AMBULO_OK);
+  assert_string_equal(ambulo__yaml_text(ambulo__yaml_at(document, "parameters.price.at_bound")),
+                      "upper");
+  assert_close(number_at(document, "parameters.price.change"), 1.5, 1e-12);
+  static const char *const times[] = {"before", "after"};
+  for (int i = 0; i < 2; i++) {
+    char path[80];
+    (void)snprintf(path, sizeof path, "conditions.one.distance.%s", times[i]);
+    double one = number_at(document, path);
+    (void)snprintf(path, sizeof path, "conditions.three.distance.%s", times[i]);
+    double three = number_at(document, path);
+    (void)snprintf(path, sizeof path, "distance.held_out_%s", times[i]);
+    assert_close(number_at(document, path), (one + 3.0 * three) / 4.0, 1e-12);
+    assert_true(fabs(one - three) > 1e-3);
+  }
+  ambulo__yaml_free(document);
+  ambulo_fit_free(fit);
+}
+
 typedef struct stopper {
   int after; /* solves */
 } stopper;
@@ -266,15 +306,100 @@ static void arguments(void **state) {
   ambulo_fit_free(fit);
 }
 
+/* Folders of fits: made, continued, refused. */
+
+#define TEXT FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE
+
+/* the folder is made or refused; nothing is solved */
+static ambulo_status prepare(const ambulo_fit *fit, const char *directory, int force,
+                             ambulo_diagnostics *list) {
+  ambulo_fit_options o = usual(1);
+  stopper s = {0};
+  o.progress = stop_after;
+  o.user = &s;
+  o.force = force;
+  ambulo_diagnostics_clear(list);
+  return ambulo_fit_run(fit, directory, &o, NULL, list, NULL, NULL);
+}
+
+static void made_and_continued(void **state) {
+  ambulo_fit *fit = fit_of(state, TEXT);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  const char *folder = scratch_path(state, "out");
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_OK);
+  assert_int_equal(access(scratch_path(state, "out/fit_inputs.json"), F_OK), 0);
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_OK);
+  scratch_write(scratch_path(state, "out/notes.txt"), "mine"); /* harms nothing in a fit's folder */
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  ambulo_fit_free(fit);
+}
+
+static void other_inputs(void **state) {
+  ambulo_fit *fit = fit_of(state, TEXT);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  const char *folder = scratch_path(state, "out");
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_OK);
+  fit->hash ^= 1;
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_E_PROBLEM);
+  assert_message(list, 0, "model or references, or the version of ambulo changed since");
+  assert_message(list, 0, "--force");
+  assert_int_equal(prepare(fit, folder, 1, list), AMBULO_OK);
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_OK); /* it is that fit's folder now */
+  ambulo_fit_free(fit);
+  fit = fit_of(state, TEXT); /* as it was */
+  assert_int_equal(prepare(fit, folder, 0, list), AMBULO_E_PROBLEM);
+  assert_int_equal(prepare(fit, folder, 1, list), AMBULO_OK);
+  /* a reference, the map and the model are inputs, too */
+  static const char *const names[] = {"slow.csv", "map.csv", "one.yaml"};
+  for (int i = 0; i < 3; i++) {
+    char *own = read_whole(scratch_path(state, names[i])), other[2048];
+    (void)snprintf(other, sizeof other, "%s\n", own);
+    if (i == 2) memcpy(strstr(other, "mass: 1"), "mass: 3", 7);
+    scratch_write(scratch_path(state, names[i]), other);
+    ambulo_fit_free(fit);
+    fit = NULL;
+    assert_int_equal(ambulo_fit_load(scratch_path(state, "fit.yaml"), NULL, list, &fit), AMBULO_OK);
+    assert_int_equal(prepare(fit, folder, 0, list), AMBULO_E_PROBLEM);
+    scratch_write(scratch_path(state, names[i]), own);
+    free(own);
+  }
+  ambulo_diagnostics_free(list);
+  ambulo_fit_free(fit);
+}
+
+static void something_else(void **state) {
+  ambulo_fit *fit = fit_of(state, TEXT);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(mkdir(scratch_path(state, "d"), 0777), 0);
+  scratch_write(scratch_path(state, "d/thesis.tex"), "x");
+  assert_int_equal(prepare(fit, scratch_path(state, "d"), 0, list), AMBULO_E_IO);
+  assert_message(list, 0, "the folder holds other files ('thesis.tex')");
+  assert_int_equal(entries_in(scratch_path(state, "d")), 1);
+  scratch_write(scratch_path(state, "file"), "x");
+  assert_int_equal(prepare(fit, scratch_path(state, "file"), 0, list), AMBULO_E_IO);
+  assert_int_equal(prepare(fit, scratch_path(state, "no/such"), 0, list), AMBULO_E_IO);
+  /* damaged inputs are other inputs */
+  assert_int_equal(prepare(fit, scratch_path(state, "out"), 0, list), AMBULO_OK);
+  scratch_write(scratch_path(state, "out/fit_inputs.json"), "{\"schema\": \"ambulo-fit-inputs/");
+  assert_int_equal(prepare(fit, scratch_path(state, "out"), 0, list), AMBULO_E_PROBLEM);
+  ambulo_diagnostics_free(list);
+  ambulo_fit_free(fit);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {
       TEST(the_truth_is_found),
+      TEST(fit_json_says_it),
       TEST(neither_workers_nor_stops_matter),
       TEST(stopped_before_anything),
       TEST(first_solves_that_fail),
       TEST(a_motion_without_the_curve),
       TEST(arguments),
+      TEST(made_and_continued),
+      TEST(other_inputs),
+      TEST(something_else),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,7 +34,7 @@ static void a_ridge_holds_back(void **state) {
   double sensitivity[2];
   int stuck;
   fit_made_up_open(&w, &best);
-  w.task.ridge = 10.0;
+  w.fit.ridge = 10.0;
   (void)run(&w, best, sensitivity, &stuck);
   assert_true(fabs(best->u[0]) < 0.1);
   assert_close(best->cost,
@@ -73,8 +73,8 @@ static void linear_residuals_take_one_iteration(void **state) {
     int stuck;
     w.upper[0] = cases[i].upper;
     fit_made_up_open(&w, &best);
-    w.task.iterations = 1;
-    w.task.ridge = cases[i].ridge;
+    w.fit.iterations = 1;
+    w.fit.ridge = cases[i].ridge;
     (void)run(&w, best, sensitivity, &stuck);
     assert_close(best->u[0], cases[i].least[0], 0.01);
     assert_close(best->u[1], cases[i].least[1], 0.01);
@@ -91,7 +91,7 @@ static void a_column_that_fails_is_left_out(void **state) {
   double sensitivity[2];
   int stuck;
   fit_made_up_open(&w, &best);
-  w.task.iterations = 1;
+  w.fit.iterations = 1;
   (void)run(&w, best, sensitivity, &stuck);
   assert_close(best->u[0], 0.0, 0.0);
   assert_close(best->u[1], 2.0 / 1.01, 0.05);
@@ -151,7 +151,7 @@ static void no_iteration(void **state) {
   double sensitivity[2];
   int stuck;
   fit_made_up_open(&w, &best);
-  w.task.iterations = 0;
+  w.fit.iterations = 0;
   assert_int_equal(run(&w, best, sensitivity, &stuck), AMBULO_FIT_ITERATIONS);
   assert_int_equal(w.evaluated, 0);
   assert_true(isnan(sensitivity[0]));

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_FIT_RUNNER_H
 #define AMBULO_TESTS_FIT_RUNNER_H
 
-#include "study/fit_evaluate.h"
+#include "study/fit.h"
 #include "support/fail_alloc.h"
 #include "support/fit_files.h"
 
@@ -12,7 +12,6 @@ typedef struct fit_runner {
   fail_alloc memory;
   ambulo_allocator allocator;
   ambulo_diagnostics *list;
-  ambulo__fit_sizes sizes;
   ambulo__fit_runner runner;
   ambulo__fit_trial *trial; /* [6] */
 } fit_runner;
@@ -25,12 +24,10 @@ static inline void fit_runner_open(void **state, const char *text, fit_runner *w
   w->memory = fail_alloc_at(-1);
   w->allocator = fail_alloc_hook(&w->memory);
   w->list = ambulo_diagnostics_create(NULL);
-  w->sizes = (ambulo__fit_sizes){w->fit->parameters, w->fit->residuals, w->fit->conditions,
-                                 w->fit->curves};
   assert_int_equal(
       ambulo__fit_runner_open(w->fit, *state, &w->options, &w->allocator, w->list, &w->runner),
       AMBULO_OK);
-  w->trial = ambulo__fit_trials_make(&w->sizes, 6, &w->allocator);
+  w->trial = ambulo__fit_trials_make(w->fit, 6, &w->allocator);
   assert_non_null(w->trial);
 }
 

@@ -8,7 +8,7 @@
 #ifndef AMBULO_TESTS_FIT_TASK_H
 #define AMBULO_TESTS_FIT_TASK_H
 
-#include "study/fit_trial.h"
+#include "study/fit.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"
 
@@ -24,6 +24,8 @@ typedef struct fit_made_up {
   fail_alloc memory;
   ambulo_allocator allocator;
   double lower[2], upper[2];
+  ambulo__fit_parameter parameter[2];
+  ambulo_fit fit;
   ambulo__fit_task task;
 } fit_made_up;
 
@@ -88,20 +90,25 @@ static inline void fit_made_up_open(fit_made_up *w, ambulo__fit_trial **best) {
     w->lower[0] = w->lower[1] = -8.0;
     w->upper[0] = w->upper[1] = 8.0;
   }
-  w->task = (ambulo__fit_task){.sizes = {2, 4, 3, 1},
-                               .lower = w->lower,
-                               .upper = w->upper,
-                               .tolerance = 1e-4,
-                               .iterations = 40,
+  for (int i = 0; i < 2; i++)
+    w->parameter[i] = (ambulo__fit_parameter){.lower = w->lower[i], .upper = w->upper[i]};
+  w->fit = (ambulo_fit){.parameter = w->parameter,
+                        .parameters = 2,
+                        .residuals = 4,
+                        .conditions = 3,
+                        .curves = 1,
+                        .tolerance = 1e-4,
+                        .iterations = 40};
+  w->task = (ambulo__fit_task){.fit = &w->fit,
                                .allocator = &w->allocator,
                                .evaluate = fit_made_up_evaluate,
                                .refresh = fit_made_up_refresh,
                                .note = fit_made_up_note,
                                .user = w};
-  *best = ambulo__fit_trials_make(&w->task.sizes, 1, &w->allocator);
+  *best = ambulo__fit_trials_make(&w->fit, 1, &w->allocator);
   assert_non_null(*best);
   fit_made_up_score(w, *best, 1);
-  (*best)->cost = ambulo__fit_cost(&w->task, *best);
+  (*best)->cost = ambulo__fit_cost(&w->fit, *best);
 }
 
 static inline void fit_made_up_close(fit_made_up *w, ambulo__fit_trial *best) {

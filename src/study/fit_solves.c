@@ -1,15 +1,62 @@
-/* study/fit_evaluate.c - see evaluate.h. */
-#include "study/fit_evaluate.h"
-
+/* study/fit_solves.c - trials, and their solves as cases of a batch in DIR/solves (fit.h).
+ *
+ * A round is all that can be solved at once: every condition of every trial of it. Its cases are
+ * added to the list of the run and the batch is run again, which finds those before it done. An id
+ * is the hash of the case's overrides and start, so a run that is repeated asks for the same cases
+ * in the same order and computes only what is not there: to resume is to repeat. A case starts from
+ * the solution of the same condition at the trial that the round begins from, which depends neither
+ * on the number of workers nor on which of them is first.
+ *
+ * Solutions that a fit follows are set against those that zero finds by the objective of the inner
+ * problem, never by the distance to people: what comes closest to them among several valleys would
+ * be a fit of the starts. */
 #include "base/clock.h"
 #include "formats/paths.h"
 #include "study/case_path.h"
 #include "study/case_record.h"
 #include "people/compare.h"
+#include "study/fit.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* an objective that is less by this share is better, and no rounding */
+static const double least_gain = 1e-4;
+
+/* ---------------------------------------------------------------------- trials */
+
+ambulo__fit_trial *ambulo__fit_trials_make(const ambulo_fit *fit, int count,
+                                           const ambulo_allocator *allocator) {
+  size_t residuals = (size_t)fit->residuals;
+  ambulo__fit_trial *trial =
+      ambulo__alloc(allocator, (size_t)count, sizeof *trial + residuals * sizeof *trial->residual);
+  if (!trial) return NULL;
+  double *residual = (double *)(void *)(trial + count);
+  for (int i = 0; i < count; i++) {
+    trial[i].residual = residual + (size_t)i * residuals;
+    trial[i].distance = trial[i].cost = (double)NAN;
+    for (int c = 0; c < AMBULO__FIT_CONDITIONS; c++) {
+      trial[i].index[c] = -1;
+      trial[i].apart[c] = (double)NAN;
+    }
+  }
+  return trial;
+}
+
+void ambulo__fit_trial_copy(const ambulo_fit *fit, const ambulo__fit_trial *from,
+                            ambulo__fit_trial *to) {
+  double *residual = to->residual;
+  memcpy(residual, from->residual, (size_t)fit->residuals * sizeof *residual);
+  *to = *from;
+  to->residual = residual;
+}
+
+double ambulo__fit_cost(const ambulo_fit *fit, const ambulo__fit_trial *trial) {
+  double squares = 0.0;
+  for (int i = 0; i < fit->parameters; i++) squares += trial->u[i] * trial->u[i];
+  return trial->distance + fit->ridge * squares / fit->parameters;
+}
 
 /* ------------------------------------------------------------------ open, close */
 
@@ -180,18 +227,16 @@ static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__sam
   double sum = 0.0, weights = 0.0;
   for (int k = 0; k < c->targets; k++) {
     const ambulo__fit_target *t = &c->target[k];
-    ambulo__fit_score *score = &trial->score[index * fit->curves + t->curve];
+    ambulo__fit_score *score = &trial->score[index][t->curve];
     double *block = r->block + t->first, weight = fit->curve[t->curve].weight;
-    if (motion) {
-      int found = 0;
-      ambulo_status status =
+    int found = 0;
+    ambulo_status status = AMBULO_OK;
+    if (motion)
+      status =
           ambulo__sample_curve(motion, t->entry, t->percent, t->points, r->values, NULL, &found);
-      if (status) return status;
-      if (!found) return lacks_curve(r, c, t, motion->cycle);
-      ambulo__fit_residual(fit, t, r->values, block, score);
-    } else {
-      ambulo__fit_residual_failed(fit, t, block, score);
-    }
+    if (status) return status;
+    if (motion && !found) return lacks_curve(r, c, t, motion->cycle);
+    ambulo__fit_residual(fit, t, motion ? r->values : NULL, block, score);
     sum += weight * score->z;
     weights += weight;
     double factor = sqrt(c->weight * weight / r->weights);
@@ -221,7 +266,7 @@ static ambulo_status read_motion(ambulo__fit_runner *r, int index, ambulo__fit_t
       ambulo__cycle_close(&cycle);
     }
   }
-  if (list && (status || !r->told)) ambulo__diagnostics_append(list, r->diagnostics);
+  if (list && (status || !r->warned)) ambulo__diagnostics_append(list, r->diagnostics);
   ambulo_diagnostics_free(list);
   ambulo__free(r->allocator, path);
   return status;
@@ -255,6 +300,77 @@ ambulo_status ambulo__fit_evaluate(ambulo__fit_runner *r, ambulo__fit_scope scop
   for (int i = 0; i < count && !status; i++) status = ask(r, scope, from, &trials[i]);
   if (!status) status = solve(r);
   for (int i = 0; i < count && !status; i++) status = score(r, scope, &trials[i]);
-  r->told = 1;
+  r->warned = 1;
+  return status;
+}
+
+/* --------------------------------------------------------------------- refresh */
+
+/* *total: the objective of a case's result; NaN: there is none */
+static ambulo_status read_objective(const ambulo__fit_runner *r, int index, double *total) {
+  ambulo__yaml *document = NULL;
+  char *path =
+      ambulo__case_path(r->allocator, r->solves, r->sweep->cases[index].id, "/summary.json");
+  *total = (double)NAN;
+  if (!path) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__yaml_load(path, r->allocator, r->diagnostics, &document);
+  if (!status) {
+    const ambulo__yaml_node *objective = ambulo__yaml_get(ambulo__yaml_root(document), "objective");
+    *total = ambulo__yaml_number(ambulo__yaml_get(objective, "total"), (double)NAN);
+  }
+  ambulo__yaml_free(document);
+  ambulo__free(r->allocator, path);
+  return status;
+}
+
+static ambulo_status is_better(const ambulo__fit_runner *r, const ambulo__fit_trial *trial,
+                               const ambulo__fit_trial *fresh, int c, int *better) {
+  double own = 0.0, other = 0.0;
+  *better = 0;
+  if (!fresh->solved[c] || fresh->index[c] == trial->index[c]) return AMBULO_OK;
+  *better = !trial->solved[c];
+  if (*better) return AMBULO_OK;
+  ambulo_status status = read_objective(r, trial->index[c], &own);
+  if (!status) status = read_objective(r, fresh->index[c], &other);
+  *better = !status && other < own - least_gain * fabs(own);
+  return status;
+}
+
+static void take(const ambulo__fit_runner *r, const ambulo__fit_trial *fresh, int c,
+                 ambulo__fit_trial *trial) {
+  const ambulo__fit_condition *condition = &r->fit->condition[c];
+  size_t first = (size_t)condition->first;
+  if (!condition->held_out)
+    memcpy(trial->residual + first, fresh->residual + first,
+           (size_t)condition->residuals * sizeof *trial->residual);
+  memcpy(trial->score[c], fresh->score[c], sizeof trial->score[c]);
+  trial->apart[c] = fresh->apart[c];
+  trial->index[c] = fresh->index[c];
+  trial->solved[c] = fresh->solved[c];
+}
+
+ambulo_status ambulo__fit_take_better(const ambulo__fit_runner *r, const ambulo__fit_trial *fresh,
+                                      ambulo__fit_trial *trial) {
+  ambulo_status status = AMBULO_OK;
+  for (int c = 0; c < r->fit->conditions && !status; c++) {
+    int better = 0;
+    if (trial->index[c] < 0 || fresh->index[c] < 0) continue;
+    status = is_better(r, trial, fresh, c, &better);
+    if (better) take(r, fresh, c, trial);
+  }
+  return status;
+}
+
+ambulo_status ambulo__fit_refresh(ambulo__fit_runner *r, ambulo__fit_trial *trial) {
+  ambulo__fit_trial *fresh = ambulo__fit_trials_make(r->fit, 1, r->allocator);
+  if (!fresh) return AMBULO_E_MEMORY;
+  memcpy(fresh->u, trial->u, sizeof fresh->u);
+  memcpy(fresh->label, "from zero", sizeof "from zero");
+  ambulo_status status = ambulo__fit_evaluate(r, AMBULO__FIT_FRESH, NULL, fresh, 1);
+  if (!status && fresh->complete) status = ambulo__fit_take_better(r, fresh, trial);
+  trial->distance = 0.0;
+  for (int k = 0; k < r->fit->residuals; k++)
+    trial->distance += trial->residual[k] * trial->residual[k];
+  ambulo__free(r->allocator, fresh);
   return status;
 }

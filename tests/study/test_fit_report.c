@@ -1,8 +1,9 @@
 /* What was understood of a fit file, in words. */
-#include "ambulo/tools/report.h"
 #include "ambulo/tools/load.h"
+#include "ambulo/tools/report.h"
+#include "study/fit.h"
 #include "support/fit_files.h"
-#include "study/fit_outcome.h"
+#include "support/test.h"
 
 static void in_words(void **state) {
   ambulo_fit *f = fit_of(state, FIT_HEAD FIT_PARAMETERS
@@ -33,6 +34,8 @@ static void in_words(void **state) {
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
-  const struct CMUnitTest tests[] = {TEST(in_words)};
+  const struct CMUnitTest tests[] = {
+      TEST(in_words),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
