@@ -70,7 +70,7 @@ static void print_cases(const ambulo_sweep *sweep) {
   }
 }
 
-static int has_batch(const char *directory) {
+int ambulo__cli_is_batch(const char *directory) {
   char path[4200];
   struct stat entry;
   if (!directory) return 0;
@@ -95,7 +95,7 @@ int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int wo
   int code = timed ? ambulo__cli_diagnostics(trial, timed, ambulo_sweep_base(sweep)) : 0;
   ambulo_diagnostics_free(trial);
   if (code == ambulo_status_exit_code(AMBULO_E_MEMORY)) return code;
-  if (has_batch(directory)) {
+  if (ambulo__cli_is_batch(directory)) {
     ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
     ambulo_status status = ambulo_batch_status(directory, NULL, diagnostics, &census);
     code = ambulo__cli_diagnostics(diagnostics, status, directory);

@@ -8,4 +8,7 @@
  * (may be NULL), else from solving the first case once. Returns the exit code. */
 int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int workers);
 
+/* A batch has filled the folder (may be NULL). */
+int ambulo__cli_is_batch(const char *directory);
+
 #endif

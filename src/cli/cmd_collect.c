@@ -1,11 +1,10 @@
 /* cli/cmd_collect.c - ambulo collect: one table of a batch folder. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/batch_dry_run.h"
 #include "cli/commands.h"
-#include "cli/format.h"
 #include "cli/front_words.h"
 #include "cli/output.h"
 
@@ -25,11 +24,8 @@ static int print_census(const char *directory, const ambulo_batch_census *c) {
 
 /* a folder, but none that a batch has filled: most likely a result folder */
 static int is_no_batch(const char *directory) {
-  char path[4096];
   struct stat info;
-  if (stat(directory, &info) || !S_ISDIR(info.st_mode)) return 0;
-  ambulo__cli_format(path, sizeof path, "%s/batch.json", directory);
-  return stat(path, &info) && errno == ENOENT;
+  return stat(directory, &info) == 0 && S_ISDIR(info.st_mode) && !ambulo__cli_is_batch(directory);
 }
 
 static int run(const ambulo__cli_input *input) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/batch_dry_run.h"
 #include "cli/body.h"
 #include "cli/commands.h"
 #include "cli/format.h"
@@ -60,9 +61,12 @@ static int run(const ambulo__cli_input *input) {
   if (!code) {
     options.body = body.model;
     options.ground_height = body.ground_height;
+    int study =
+        input->argument_count == 1 && !options.motion && ambulo__cli_is_batch(input->arguments[0]);
     if (!status)
-      status = ambulo_page_write(input->arguments, input->argument_count, output, &options, NULL,
-                                 diagnostics);
+      status = study ? ambulo_batch_page(input->arguments[0], output, &options, NULL, diagnostics)
+                     : ambulo_page_write(input->arguments, input->argument_count, output, &options,
+                                         NULL, diagnostics);
     code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
   }
   if (!code) printf("written to %s\n", output);
@@ -75,7 +79,7 @@ static int run(const ambulo__cli_input *input) {
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "the page (default: DIR/report.html)"},
     {"force", 0, NULL, "write over a file that is no page by ambulo"},
-    {"size", 0, "MB", "how large the page of a batch may be (default: 1.2)"},
+    {"size", 0, "MB", "how large the page of a batch may be (default: 3)"},
     {"motion", 0, "FILE", "a measured motion (CSV, STO, MOT), as a ghost beside the result"},
     {"body", 0, "FILE", "the model, or the problem, of that motion; a shipped name will do"},
     {"from", 0, "S", "begin with this time of the motion (default: its first)"},
@@ -92,8 +96,8 @@ const ambulo__cli_command ambulo__cli_report = {
         "to turn, play and scrub; curves that follow it, beside people's; verdict, audit,\n"
         "sensitivities and objective in plain words. Further result folders stand beside the "
         "first\n"
-        "one as ghosts. Of a batch folder: a table of its cases and a plot of any two columns, in\n"
-        "which a click shows the motion of a case. See docs/guide-page.md.",
+        "one as ghosts. Of a batch folder: a table of its cases, a plot of any two columns, its\n"
+        "front, in which a click shows the motion of a case. See docs/guide-page.md.",
     .example = "ambulo report walk\n"
                "ambulo report walks",
     .options = options_table,

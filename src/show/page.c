@@ -6,6 +6,7 @@
 #include "formats/atomic_file.h"
 #include "formats/deflate.h"
 #include "formats/output_check.h"
+#include "formats/paths.h"
 
 #include <math.h>
 #include <string.h>
@@ -146,7 +147,7 @@ static const char own_mark[] = "<meta name=\"generator\" content=\"ambulo report
 static const char data_mark[] = "/*DATA*/";
 
 AMBULO__FILL(ambulo_page_options,
-             {.size = size, .from = -(double)INFINITY, .to = (double)INFINITY, .megabytes = 1.2})
+             {.size = size, .from = -(double)INFINITY, .to = (double)INFINITY, .megabytes = 3.0})
 
 static int options_are_valid(const ambulo_page_options *o) {
   if (!isfinite(o->ground_height)) return 0;
@@ -167,25 +168,19 @@ static ambulo_status check_output(const char *output, int overwrite,
                        "the file exists, and is no page by ambulo; it is not written over");
 }
 
-/* the folder of a file, to be freed; NULL: no memory */
-static char *folder_of(const ambulo_allocator *a, const char *path) {
-  const char *slash = strrchr(path, '/');
-  size_t length = !slash ? 0 : slash == path ? 1 : (size_t)(slash - path);
-  char *folder = ambulo__alloc(a, length + 2, 1);
-  if (!folder) return NULL;
-  memcpy(folder, slash ? path : ".", slash ? length : 1);
-  folder[slash ? length : 1] = '\0';
-  return folder;
+ambulo_status ambulo__page_begin(const ambulo_page_options *options, const char *output,
+                                 ambulo_diagnostics *diagnostics, ambulo_page_options *own) {
+  if (!AMBULO__OWN(ambulo_page_options, own, options)) return AMBULO_E_ARGUMENT;
+  if (!output || !options_are_valid(own)) return AMBULO_E_ARGUMENT;
+  return check_output(output, own->overwrite, diagnostics);
 }
 
-static ambulo_status study(const char *directory, const char *output, double megabytes,
-                           ambulo__text_buffer *data, ambulo_diagnostics *diagnostics) {
-  char *folder = folder_of(&data->allocator, output);
-  if (!folder) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__page_add_study(directory, folder, megabytes,
-                                                (double)ambulo__viewer_size, data, diagnostics);
-  ambulo__free(&data->allocator, folder);
-  return status;
+static int is_batch(const char *directory, const ambulo_allocator *a) {
+  struct stat entry;
+  char *path = ambulo__join_paths(a, directory, "batch.json", NULL);
+  int there = path && stat(path, &entry) == 0;
+  ambulo__free(a, path);
+  return there;
 }
 
 static ambulo_status results(const char *const *directories, int count,
@@ -196,8 +191,9 @@ static ambulo_status results(const char *const *directories, int count,
   for (int i = 0; i < count && !status; i++) {
     ambulo__place place = {.file = directories[i]};
     if (i) ambulo__text_append_char(data, ',');
-    if (ambulo__page_is_batch(directories[i]))
-      return ambulo__error(diagnostics, AMBULO_E_SCHEMA, place, NULL,
+    if (is_batch(directories[i], &data->allocator))
+      return ambulo__error(diagnostics, AMBULO_E_SCHEMA, place,
+                           "in C ambulo_batch_page writes the page of a batch",
                            "a batch folder beside others; expected it alone, or result folders");
     status = ambulo__page_add_result(directories[i], i == 0, data, diagnostics);
   }
@@ -209,7 +205,7 @@ static ambulo_status results(const char *const *directories, int count,
   return status ? status : ambulo__text_status(data);
 }
 
-static ambulo_status write_page(const char *output, const ambulo__text_buffer *data,
+ambulo_status ambulo__page_save(const char *output, const ambulo__text_buffer *data,
                                 ambulo_diagnostics *diagnostics) {
   const char *viewer = (const char *)ambulo__viewer;
   const char *mark = strstr(viewer, data_mark);
@@ -233,21 +229,18 @@ ambulo_status ambulo_page_write(const char *const *directories, int count, const
                                 const ambulo_allocator *allocator,
                                 ambulo_diagnostics *diagnostics) {
   ambulo_page_options own;
-  if (!AMBULO__OWN(ambulo_page_options, &own, options)) return AMBULO_E_ARGUMENT;
-  if (!directories || count < 1 || !output || !options_are_valid(&own)) return AMBULO_E_ARGUMENT;
+  if (!directories || count < 1) return AMBULO_E_ARGUMENT;
   for (int i = 0; i < count; i++)
     if (!directories[i]) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status = ambulo__page_begin(options, output, diagnostics, &own);
+  if (status == AMBULO_E_ARGUMENT) return status;
   ambulo__text_buffer data;
   ambulo__text_init(&data, allocator);
-  ambulo_status status = check_output(output, own.overwrite, diagnostics);
   ambulo__text_append_char(&data, '{');
-  if (!status && count == 1 && !own.motion && ambulo__page_is_batch(directories[0]))
-    status = study(directories[0], output, own.megabytes, &data, diagnostics);
-  else if (!status)
-    status = results(directories, count, &own, &data, diagnostics);
+  if (!status) status = results(directories, count, &own, &data, diagnostics);
   ambulo__text_append_char(&data, '}');
-  if (!status) status = write_page(output, &data, diagnostics);
+  if (!status) status = ambulo__page_save(output, &data, diagnostics);
   ambulo__text_free(&data);
   return ambulo__conclude(diagnostics, errors, status, output);
 }

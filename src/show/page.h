@@ -35,7 +35,7 @@ void ambulo__packed_text(ambulo__text_buffer *out, const char *text, size_t leng
 /* the data of a page: what its program is given to show.
  *
  *     {"results": [{"name", "packed"}, ...]}            of result folders
- *     {"study": {"name", "motions": [...], "table"}}    of a batch folder (study_motions.h)
+ *     {"study": {"name", "motions": [...], "table"}}    of a batch folder (study/study_page.c)
  *
  * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
  * the files of the folder (docs/results.md), `strip` its gait.svg as a text. "table" is packed too.
@@ -73,13 +73,12 @@ ambulo_status ambulo__page_add_result(const char *directory, int with_strip,
 ambulo_status ambulo__page_add_motion(const ambulo_page_options *options, ambulo__text_buffer *out,
                                       ambulo_diagnostics *diagnostics);
 
-/* 1 if a batch has filled the folder. */
-int ambulo__page_is_batch(const char *directory);
-/* Appends "study". `folder`: where the page will stand, for the ways to pictures of cases whose
- * motion is not in it; `megabytes`: how large the page may be, of which `other` bytes are not data.
- * Errors: as of ambulo_batch_collect, E_INTERNAL. */
-ambulo_status ambulo__page_add_study(const char *directory, const char *folder, double megabytes,
-                                     double other, ambulo__text_buffer *out,
-                                     ambulo_diagnostics *diagnostics);
+/* The caller's options as this library's, and whether the page may be written. Errors: E_ARGUMENT,
+ * E_IO. */
+ambulo_status ambulo__page_begin(const ambulo_page_options *options, const char *output,
+                                 ambulo_diagnostics *diagnostics, ambulo_page_options *own);
+/* Writes the page with these data in it, JSON for a <script> element. Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__page_save(const char *output, const ambulo__text_buffer *data,
+                                ambulo_diagnostics *diagnostics);
 
 #endif

@@ -176,7 +176,7 @@
   }
 
   // a case beside the scene.json of its own folder, of which its own page is made (window.own); steps are
-  // those of src/show/case_data.h, four times finer where there is room
+  // those of src/study/case_pack.h, four times finer where there is room
   function nearOwn(own) {
     const row = [...document.querySelectorAll(".cases tbody tr")].find((r) => r.textContent.includes(own.row));
     row.click();
@@ -244,6 +244,20 @@
     const rows = () => document.querySelectorAll(".cases tbody tr").length;
     check("a row each case", rows() === 4, rows());
     check("a dot each case that has both numbers", document.querySelectorAll(".dot").length === 4);
+    check("a line along the only axis", document.querySelectorAll(".join").length === 3);
+    const pick = (label, column) => {
+      const select = document.querySelector(`#study select[aria-label="${label}"]`);
+      select.value = [...select.options].find((o) => o.textContent.startsWith(column)).value;
+      select.dispatchEvent(new Event("change"));
+    };
+    const fills = () => new Set([...document.querySelectorAll(".dot.good")].map((d) => getComputedStyle(d).fill)).size;
+    check("dots of one colour", fills() === 1, fills());
+    pick("shade", "objective");
+    check("shaded by a third column", fills() === 4 && /objective:.*from [\d.]+ to [\d.]+/.test($("study").textContent), fills());
+    pick("shade", "none");
+    pick("across", "objective");
+    check("no line where cases have values of their own", !document.querySelector(".join"));
+    pick("across", "time");
     const search = document.querySelector("#study input");
     const filter = (text) => {
       search.value = text;
@@ -271,6 +285,19 @@
     for (const own of window.own) nearOwn(own);
     check("how near they are is said", /places are within [\d.]+ mm, angles within [\d.]+°/.test(words()),
       $("precision").textContent);
+  } else if (kind === "front") {
+    await frame();
+    const { front, cases } = globalThis.ambulo.study, on = document.querySelectorAll(".dot:not(.off)").length;
+    check("the terms are across and up", ["across", "up"].every((label, i) =>
+      document.querySelector(`#study select[aria-label="${label}"]`).selectedOptions[0].textContent
+        === ["torque_squared", "acceleration"][i]));
+    check("points of the front are filled", on === front.order.length && on < cases.length, on);
+    check("a line joins them", document.querySelectorAll(".join").length === on - 1);
+    check("and is dashed where no weights lead", document.querySelectorAll(".join.refused").length
+      === front.refused.length, front.refused);
+    const first = cases[front.order[0]].name;
+    check("a dot says its place", [...document.querySelectorAll(".dot")].some((d) =>
+      d.getAttribute("aria-label").startsWith(`Watch ${first}: `) && /place 1 of the front/.test(d.getAttribute("aria-label"))));
   } else if (kind === "flat") {
     await frame();
     check("says that there is no WebGL", shown($("no-webgl")) && /no WebGL/.test($("no-webgl").textContent));

@@ -11,6 +11,7 @@
 #define AMBULO_TOOLS_BATCH_H
 
 #include "ambulo/status.h"
+#include "ambulo/tools/page.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -150,6 +151,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
                                                                const ambulo_allocator *allocator,
                                                                ambulo_diagnostics *diagnostics,
                                                                ambulo_batch_census *census);
+
+/* Writes the page of a batch folder: its table, plots and motions, also of a batch that still runs.
+ * Of the options overwrite and megabytes count. Errors: as ambulo_page_write and
+ * ambulo_batch_status. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_page(const char *directory,
+                                                            const char *output,
+                                                            const ambulo_page_options *options,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics);
 
 /* Processes that ambulo_batch_run would use: workers where > 0, else the usable processors;
  * limited by the free memory with `megabytes` each (0: unknown). */

@@ -26,19 +26,18 @@ typedef struct ambulo_page_options {
   double ground_height;
   double from, to;
 
-  /* How large the page of a batch may be, MB; 1.2. Motions that need more have fewer samples; cases
+  /* How large the page of a batch may be, MB; 3. Motions that need more have fewer samples; cases
    * for which there still is no room lead to their pictures. */
   double megabytes;
 } ambulo_page_options;
 AMBULO_DEFAULT(ambulo_page_options);
 
 /* Writes the page of result folders (ambulo/tools/report.h; the first is the one that is shown,
- * others may be laid beside it), or of one batch folder (ambulo/tools/batch.h): its table, plots
- * and motions. `options` (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Errors:
- * E_ARGUMENT; E_IO (a folder, or a file in it, that is not there or cannot be read; an output that
- * cannot be written, or is a file that ambulo did not write and overwrite is 0); E_PARSE, E_SCHEMA
- * (a file of a folder is damaged, cut off, or of another result; with file, line and column);
- * E_PROBLEM, E_LIMIT, E_MEMORY. */
+ * others may be laid beside it); that of a batch folder is ambulo_batch_page's. `options` (NULL:
+ * the defaults), `allocator` and `diagnostics` may be NULL. Errors: E_ARGUMENT; E_IO (a folder, or
+ * a file in it, that is not there or cannot be read; an output that cannot be written, or is a file
+ * that ambulo did not write and overwrite is 0); E_PARSE, E_SCHEMA (a file of a folder is damaged,
+ * cut off, or of another result; with file, line and column); E_PROBLEM, E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_page_write(const char *const *directories,
                                                             int count, const char *output,
                                                             const ambulo_page_options *options,

@@ -276,9 +276,8 @@ class Study:
         ``report.html`` in the folder. ``options`` are those of PageOptions."""
         path = self.folder / "report.html" if path is None else Path(path)
         carrier = Carrier()
-        folders = ffi.new("char *[]", [carrier.text(self.folder)])
         with Call() as call:
-            call(lib.ambulo_page_write(folders, 1, path_of(path),
+            call(lib.ambulo_batch_page(path_of(self.folder), path_of(path),
                                        carrier.new(records.PageOptions(**options)), NULL,
                                        call.messages))
         return path

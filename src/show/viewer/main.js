@@ -34,6 +34,7 @@ const page = {
 const sceneOf = (result) => result.unpacked ??= unpack(result.scene);
 // for who looks closer, from the console: what is shown, all series as arrays of SI units
 globalThis.ambulo.scene = () => sceneOf(page.results[page.main]);
+globalThis.ambulo.study = data.study;
 
 // ------------------------------------------------------------------- theme
 

@@ -1,4 +1,5 @@
-// A batch: a table of its cases that sorts and filters, a plot of two columns, a case to watch.
+// A batch: a table of its cases that sorts and filters, a plot of two columns and a shade, a case to
+// watch. Lines join cases that differ along an axis alone, and the points of a front.
 import { el, short, svg } from "./dom.js";
 
 const good = new Set(["optimal", "feasible"]);
@@ -27,18 +28,22 @@ export class Study {
     const numeric = this.columns.map((_, c) => c)
       .filter((c) => study.cases.some((row) => isNumber(this.cell(row, c))));
     this.numeric = numeric;
-    this.x = numeric[0];
-    this.y = numeric.find((c) => this.columns[c] === "objective") ?? numeric[1] ?? numeric[0];
+    // columns behind the case and its state
+    const { front } = study, terms = front?.order.length ? front.terms.map((c) => c + 2) : [];
+    this.x = terms[0] ?? numeric[0];
+    this.y = terms[1] ?? numeric.find((c) => this.columns[c] === "objective") ?? numeric[1] ?? numeric[0];
+    this.shade = terms[2] ?? -1;
     this.build(parent);
   }
 
   build(parent) {
-    const choices = () => this.numeric.map((c) => el("option", { value: c }, this.columns[c]));
-    const pick = (label, key) => {
+    const choices = (none) => [...(none ? [el("option", { value: -1 }, "none")] : []),
+      ...this.numeric.map((c) => el("option", { value: c }, this.columns[c]))];
+    const pick = (label, key, none) => {
       const select = el("select", { "aria-label": label, onchange: () => {
         this[key] = Number(select.value);
         this.draw();
-      } }, choices());
+      } }, choices(none));
       select.value = this[key];
       return el("label", {}, `${label} `, select);
     };
@@ -53,7 +58,8 @@ export class Study {
     this.head = el("tr");
     parent.append(el("h2", {}, "Cases"));
     if (this.numeric.length)
-      parent.append(el("div", { class: "bar" }, pick("across", "x"), pick("up", "y")), this.plot);
+      parent.append(el("div", { class: "bar" }, pick("across", "x"), pick("up", "y"),
+        pick("shade", "shade", true)), this.plot);
     parent.append(el("div", { class: "bar" }, search, this.count),
       el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "Table of cases" },
         el("table", { class: "cases" }, el("thead", {}, this.head), this.body)));
@@ -121,6 +127,29 @@ export class Study {
     if (this.numeric.length) this.drawPlot(rows);
   }
 
+  // [from, to, dashed] of cases that a line joins
+  joins(rows) {
+    const { front, axes = 0, zipped = 0, cases } = this.study, c = this.x - 2;
+    const seen = new Set(rows.map(({ index }) => index)), joined = [];
+    if (front && [this.x, this.y].every((column) => front.terms.includes(column - 2))) {
+      if (front.terms.length > 2) return [];
+      front.order.forEach((index, place) => place
+        && joined.push([front.order[place - 1], index, front.refused.includes(place - 1)]));
+    } else if (!front && c >= 0 && c < axes) {
+      const lines = new Map(), own = (i) => i === c || (c < zipped && i < zipped);
+      for (const index of seen) {
+        const key = JSON.stringify(cases[index].values.slice(0, axes).filter((_, i) => !own(i)));
+        if (!lines.has(key)) lines.set(key, []);
+        lines.get(key).push(index);
+      }
+      for (const line of lines.values()) {
+        line.sort((a, b) => cases[a].values[c] - cases[b].values[c]);
+        line.forEach((index, i) => i && joined.push([line[i - 1], index, false]));
+      }
+    }
+    return joined.filter(([a, b]) => seen.has(a) && seen.has(b));
+  }
+
   drawPlot(rows) {
     const width = this.width = Math.min(Math.max(this.plot.clientWidth, 260), 700);
     const height = 250, pad = { left: 58, right: 14, top: 12, bottom: 40 };
@@ -151,11 +180,27 @@ export class Study {
       "text-anchor": "middle" }, this.columns[this.x]),
     svg("text", { class: "name", x: 12, y: height / 2, "text-anchor": "middle",
       transform: `rotate(-90 12 ${height / 2})` }, this.columns[this.y]));
+    const at = new Map(points.map((p) => [p.index, p]));
+    for (const [a, b, dashed] of this.joins(rows)) {
+      const [p, q] = [at.get(a), at.get(b)];
+      if (p && q) picture.append(svg("line", { class: dashed ? "join refused" : "join",
+        x1: X(p.x), y1: Y(p.y), x2: X(q.x), y2: Y(q.y) }));
+    }
+    const shades = points.map((p) => this.shade < 0 ? null : this.cell(p.row, this.shade)).filter(isNumber);
+    const [least, most] = [Math.min(...shades), Math.max(...shades)];
+    const shadeOf = (value) => `color-mix(in srgb, var(--shade-high) ${
+      Math.round(most > least ? (100 * (value - least)) / (most - least) : 50)}%, var(--shade-low))`;
+    if (shades.length)
+      this.plot.append(el("p", { class: "note" }, `${this.columns[this.shade]}: `, el("span", { class: "shades" }),
+        ` from ${short(least)} to ${short(most)}`));
     for (const p of points) {
       const go = () => this.choose(p.index);
-      const label = `${p.row.name}: ${short(p.x)}, ${short(p.y)}, ${p.row.state}`;
+      const shade = this.shade < 0 ? null : this.cell(p.row, this.shade), place = this.study.front?.order.indexOf(p.index);
+      const label = `${p.row.name}: ${short(p.x)}, ${short(p.y)}${isNumber(shade) ? `, ${short(shade)}` : ""}, `
+        + (place >= 0 ? `place ${place + 1} of the front, ${p.row.state}` : p.row.state);
       picture.append(svg("circle", { cx: X(p.x), cy: Y(p.y), r: p.index === this.chosen ? 7 : 4.5,
-        class: `dot ${tone(p.row.state)} ${p.index === this.chosen ? "chosen" : ""}`, tabindex: 0,
+        class: `dot ${tone(p.row.state)} ${p.index === this.chosen ? "chosen" : ""} ${place === -1 ? "off" : ""}`,
+        ...(isNumber(shade) && good.has(p.row.state) ? { style: `fill: ${shadeOf(shade)}` } : {}), tabindex: 0,
         role: "button", "aria-label": `Watch ${label}`, onclick: go,
         onkeydown: (e) => (e.key === "Enter" || e.key === " ") && (e.preventDefault(), e.stopPropagation(), go()) },
       svg("title", {}, label)));
