@@ -133,12 +133,8 @@ void ambulo__packed_text(ambulo__text_buffer *out, const char *text, size_t leng
   ambulo__text_free(&packed);
 }
 
-/* the page: the viewer with data in it (ambulo/tools/page.h).
- *
- * Reading order: page.h, page.c, result_data.c, script_text.h, packed_text.h, motion_data.c,
- * study_data.c, study_motions.h, case_block.h, case_data.h, case_table.h, motion_pack.h,
- * motions.h, principal.h, viewer.h; the page's own program in viewer/, from main.js on.
- */
+/* the page: the viewer with data in it (ambulo/tools/page.h). Its own program is in viewer/, from
+ * main.js on; data of a study: study/study_page.c. */
 
 enum { START_BYTES = 1024 };
 
