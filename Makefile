@@ -119,7 +119,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
   sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
-  lint-equations lint-reading lint-keys lint-words lint-leftovers format \
+  lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
   install uninstall clean force
 
 # A second make with as many jobs as there are processors, unless -j was given. It also reads
@@ -344,7 +344,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols callers mirror headers interface equations reading keys words leftovers
+LINT := format static order size symbols callers mirror headers interface equations reading keys architecture words leftovers
 FORMATTED = $(wildcard include/ambulo/*.h include/ambulo/tools/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
@@ -384,6 +384,8 @@ lint-reading:
 	@.setup/lint_reading.sh
 lint-keys:
 	@.setup/lint_keys.sh
+lint-architecture:
+	@.setup/lint_architecture.sh
 lint-words:
 	@.setup/lint_words.sh
 lint-leftovers:
@@ -394,7 +396,7 @@ lint-leftovers:
 # PREFIX/lib, or where a distribution has libraries: make install LIBDIR=/usr/lib/x86_64-linux-gnu
 LIBDIR ?= $(PREFIX)/lib
 MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' -o -name '*.md' 2>/dev/null)
-DOCS = LICENSE README.md CHANGELOG.md $(wildcard CITATION.cff CONTRIBUTING.md docs/*.md docs/images/*.svg \
+DOCS = LICENSE README.md CHANGELOG.md $(wildcard CITATION.cff CONTRIBUTING.md ARCHITECTURE.md docs/*.md docs/images/*.svg \
   docs/images/*.png docs/examples/*)
 
 # where the loader does not look by itself, programs are told where the library is

@@ -6,7 +6,7 @@ command -v pandoc >/dev/null || { echo "make book needs pandoc (apt-get install 
 file=$PWD/$1
 mkdir -p "$(dirname "$file")"
 version=$(sed -n 's/^.define AMBULO_VERSION_STRING "\(.*\)"/\1/p' include/ambulo/ambulo.h)
-pages=$(sed -n '/^## Read on/,$s/.*](docs\/\([a-z-]*\.md\)).*/\1/p' README.md)
+pages=$(sed -n '/^## Read on/,$p' README.md | grep -oE '\(docs/[a-z-]*\.md\)' | sed 's/.docs\///; s/)//')
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -r docs/images "$work/"

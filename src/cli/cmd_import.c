@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/foot_list.h"
 #include "cli/output.h"
 
 /* the values of the options that may be repeated */
@@ -51,10 +52,12 @@ static int run(const ambulo__cli_input *input) {
   const char *source = input->arguments[0], *output = ambulo__cli_value(input, "output");
   ambulo_import_options options = ambulo_import_options_default();
   lists l = {NULL, NULL, NULL, NULL};
+  ambulo__cli_feet asked;
   if (!read_root(input, &options.root)) return 2;
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo_status status = read_options(input, &l, &options) ? AMBULO_OK : AMBULO_E_MEMORY;
   char *text = NULL;
+  if (!status) ambulo__cli_ask_feet(source, output, &options, &asked);
   if (!status)
     status =
         ambulo_import_model(source, output, &options, NULL, diagnostics, output ? NULL : &text);
@@ -98,7 +101,7 @@ const ambulo__cli_command ambulo__cli_import = {
         "of a MuJoCo model (MJCF), and writes a commented model file: links, masses, ranges,\n"
         "torque limits, feet, left and right. What cannot be carried over is named, with what was\n"
         "done instead, as a warning and in the file. Nothing is written when the source is wrong.\n"
-        "Feet are links with such a name, or the lowest ones; --foot, --heel and --toe name others.\n"
+        "Where the source tells no feet, a terminal is asked which links they are.\n"
         "See docs/guide-import.md.",
     .example =
         "ambulo import robot.urdf -o robot.yaml\n"

@@ -34,17 +34,10 @@ columns_documented() {
   return $lost
 }
 
-# the map in the README names the folders of src, all of them
-map_is_true() {
-  # shellcheck disable=SC2016
-  diff <(sed -n '/^| folder/,/^$/s/^| `\([a-z]*\)`.*/\1/p' README.md | sort) \
-    <(find src -mindepth 1 -maxdepth 1 -type d -exec basename {} \; | sort)
-}
-
 # no link of a page leads nowhere, neither to a file nor to a heading
 links_lead_somewhere() {
   local page target file anchor lost=0
-  for page in README.md CHANGELOG.md docs/*.md; do
+  for page in README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md docs/*.md; do
     while read -r target; do
       file=${target%%#*} anchor=
       case $target in *'#'*) anchor=${target#*#} ;; esac
@@ -107,7 +100,6 @@ names_exist() {
 judge_pages() {
   local folder=$work/facts
   mkdir "$folder"
-  count 'README: map of src' map_is_true
   count 'README leads to every page' pages_are_linked
   count 'links of the pages' links_lead_somewhere
   count 'files that the pages name' files_are_there

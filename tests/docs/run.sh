@@ -265,7 +265,7 @@ run_page() {
 
 pages() { # in the order of the README
   echo README.md
-  sed -n '/^## Read on/,$s/.*](\(docs\/[a-z-]*\.md\)).*/\1/p' README.md
+  sed -n '/^## Read on/,$p' README.md | grep -oE '\(docs/[a-z-]*\.md\)' | tr -d '()'
 }
 
 # ------------------------------------------------------------------ main
