@@ -1,5 +1,5 @@
 /* From zero to a point that satisfies every equality. */
-#include "problem/states.h"
+#include "problem/callbacks.h"
 #include "support/arm.h"
 #include "support/engine_fixture.h"
 

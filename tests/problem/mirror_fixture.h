@@ -3,7 +3,7 @@
 #ifndef AMBULO_TESTS_MIRROR_FIXTURE_H
 #define AMBULO_TESTS_MIRROR_FIXTURE_H
 
-#include "problem/mirror_terms.h"
+#include "problem/term.h"
 
 #include "ambulo/tools/tools.h"
 #include "model/model.h"

@@ -1,235 +1,132 @@
-/* The tables of members: nothing of a structure is left out, and every member counts for the hash
- * and belongs to a copy. */
-#include "base/alloc.h"
-#include "model/model.h"
-#include "problem/definition.h"
-#include "support/arm.h"
-#include "support/test.h"
+/* Parts of a problem that a caller starts from. */
+#include "support/problem_fixture.h"
+#include "support/walker_fixture.h"
 
-/* ------------------------------------------------------------------ all structures */
-
-static const ambulo__structure *const structures[] = {
-    &ambulo__definition_members, &ambulo__clearance_members,   &ambulo__ground_reaction_members,
-    &ambulo__collision_members,  &ambulo__contact_members,     &ambulo__end_value_members,
-    &ambulo__tube_members,       &ambulo__obstacle_members,    &ambulo__reach_members,
-    &ambulo__device_members,     &ambulo__hold_members,        &ambulo__term_members,
-    &ambulo__user_row_members,   &ambulo__capsule_pair_members};
-
-static int is_whole(const ambulo__member *m) {
-  return m->type >= AMBULO__INTEGER && m->type <= AMBULO__INDEX;
-}
-
-static size_t bytes_of(const ambulo__member *m) {
-  if (m->type == AMBULO__PART) return m->of->size;
-  if (m->type > AMBULO__INDEX) return sizeof(void *);
-  return (size_t)m->count * (is_whole(m) ? sizeof(int) : sizeof(double));
-}
-
-/* rows follow one another as members do, but for what alignment asks for */
-static void rows_cover_their_structures(void **state) {
+static double zero(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  (void)user;
   (void)state;
-  for (size_t i = 0; i < sizeof structures / sizeof *structures; i++) {
-    const ambulo__structure *s = structures[i];
-    size_t end = i == 0 ? offsetof(ambulo_problem_definition, name) : 0; /* behind the sizes */
-    for (int k = 0; k < s->count; k++) {
-      const ambulo__member *m = &s->members[k];
-      size_t align = is_whole(m) ? sizeof(int) : sizeof(double);
-      assert_int_equal(m->at, (end + align - 1) / align * align);
-      end = m->at + bytes_of(m);
-    }
-    assert_true(s->size >= end && s->size - end < sizeof(double));
-  }
+  (void)gradient;
+  return 0.0;
 }
 
-/* a default is within the range that a file may say, and `low` below `high` */
-static void defaults_are_in_their_ranges(void **state) {
+static ambulo_status create(const ambulo_problem_definition *d, ambulo_problem **problem) {
+  *problem = NULL;
+  return ambulo_problem_create(d, NULL, NULL, problem);
+}
+
+static void row_stands_at_every_node(void **state) {
   (void)state;
-  for (size_t i = 0; i < sizeof structures / sizeof *structures; i++) {
-    for (int k = 0; k < structures[i]->count; k++) {
-      const ambulo__member *m = &structures[i]->members[k];
-      double range[2];
-      ambulo__member_range(m, range);
-      if (m->type > AMBULO__INTEGER || !(m->low < m->high)) continue;
-      for (int n = 0; n < 2; n++) {
-        if (isnan(m->usual[n]) || isinf(m->usual[n]) || m->flags & AMBULO__REQUIRED) continue;
-        if (n > 0 && m->count < 2) continue;
-        assert_true(m->usual[n] >= m->low && m->usual[n] <= m->high);
-        assert_true(range[0] <= m->low && range[1] >= m->high);
-      }
-    }
-  }
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  ambulo_user_row row = ambulo_user_row_default();
+  row.name = "mine";
+  row.unit = "m";
+  row.function = zero;
+  ambulo_problem *without, *with;
+  assert_int_equal(create(&d, &without), AMBULO_OK);
+  d.user_rows = &row;
+  d.user_row_count = 1;
+  assert_int_equal(create(&d, &with), AMBULO_OK);
+  int last = ambulo_problem_row_count(with) - 1;
+  assert_int_equal(last + 1,
+                   ambulo_problem_row_count(without) + ambulo_problem_node_count(without));
+  ambulo_row told;
+  assert_int_equal(ambulo_problem_row(with, last, &told), AMBULO_OK);
+  assert_int_equal(told.relation, AMBULO_NOT_NEGATIVE);
+  ambulo_problem_free(with);
+  ambulo_problem_free(without);
+  ambulo_model_free(model);
 }
 
-/* ------------------------------------------------------------- one of everything */
-
-enum { MOST_BLOCKS = 64, LENGTH = 64 };
-
-typedef struct whole {
-  ambulo_model *model;
-  ambulo_problem_definition d;
-  void *block[MOST_BLOCKS];
-  size_t size[MOST_BLOCKS]; /* 0: a text */
-  int blocks;
-} whole;
-
-static void *zeros(whole *w, size_t size) {
-  assert_true(w->blocks < MOST_BLOCKS);
-  w->block[w->blocks] = calloc(1, size);
-  assert_non_null(w->block[w->blocks]);
-  w->size[w->blocks] = size;
-  return w->block[w->blocks++];
-}
-
-/* two items, numbers or letters of each */
-static void furnish(whole *w, const ambulo__structure *s, char *item) {
-  for (int i = 0; i < s->count; i++) {
-    const ambulo__member *m = &s->members[i];
-    const int two = 2;
-    const void *pointer = w;
-    if (m->type == AMBULO__PART) furnish(w, m->of, item + m->at);
-    if (m->type < AMBULO__TEXT || m->type == AMBULO__PART) continue;
-    if (m->type == AMBULO__ITEMS) {
-      char *items = zeros(w, 2 * m->of->size);
-      for (int k = 0; k < 2; k++) ambulo__members_fill(m->of, items + (size_t)k * m->of->size);
-      for (int k = 0; k < 2; k++) furnish(w, m->of, items + (size_t)k * m->of->size);
-      pointer = items;
-    } else if (m->type == AMBULO__TEXT) {
-      pointer = strcpy(zeros(w, 8), "name");
-      w->size[w->blocks - 1] = 0;
-    } else if (m->type != AMBULO__BORROWED) {
-      pointer = zeros(w, LENGTH * sizeof(double));
-    }
-    memcpy(item + m->at, &pointer, sizeof pointer);
-    if (m->extent == AMBULO__EACH_SAMPLE_COORDINATE ||
-        (m->extent == AMBULO__COUNTED &&
-         (m->type == AMBULO__ITEMS || m->type == AMBULO__NUMBER_ARRAY ||
-          m->type == AMBULO__INDEX_ARRAY)))
-      memcpy(item + m->count_at, &two, sizeof two);
-  }
-}
-
-static void open(whole *w) {
-  memset(w, 0, sizeof *w);
-  w->model = arm_create();
-  w->d = ambulo_problem_definition_default();
-  furnish(w, &ambulo__definition_members, (char *)&w->d);
-  w->d.model = w->model;
-  w->d.intervals = 4;
-  w->d.spline_intervals = 3;
-}
-
-static void close(whole *w) {
-  for (int i = 0; i < w->blocks; i++) free(w->block[i]);
-  ambulo_model_free(w->model);
-}
-
-/* --------------------------------------------------------------------- the hash */
-
-static unsigned long long hash_of(const whole *w) {
-  return ambulo__definition_hash(&w->d, w->model);
-}
-
-/* another value at `at` makes another hash */
-static void expect_seen(const whole *w, const char *key, void *at, const void *other, size_t size) {
-  char kept[sizeof(double)];
-  unsigned long long before = hash_of(w);
-  memcpy(kept, at, size);
-  memcpy(at, other, size);
-  if (hash_of(w) == before) print_error("the hash does not see '%s'\n", key ? key : "(no key)");
-  assert_true(hash_of(w) != before);
-  memcpy(at, kept, size);
-  assert_true(hash_of(w) == before);
-}
-
-static void expect_all_seen(const whole *w, const ambulo__structure *s, char *item) {
-  const double number = 0.37;
-  const int integer = 1; /* counts of two, indices and choices: another one, and within arrays */
-  const char letter = 'x';
-  for (int i = 0; i < s->count; i++) {
-    const ambulo__member *m = &s->members[i];
-    char *at = item + m->at, *array = NULL;
-    if (m->type >= AMBULO__TEXT && m->type != AMBULO__PART) memcpy(&array, at, sizeof array);
-    size_t length = m->type >= AMBULO__NUMBER_ARRAY && m->type <= AMBULO__ITEMS
-                        ? ambulo__member_length(m, &w->d, item)
-                        : 0;
-    if (m->type <= AMBULO__FILE_ANGLE)
-      for (int k = 0; k < m->count; k++)
-        expect_seen(w, m->key, at + (size_t)k * sizeof number, &number, sizeof number);
-    if (is_whole(m)) {
-      int kept, other;
-      memcpy(&kept, at, sizeof kept);
-      other = kept == integer ? 0 : integer;
-      expect_seen(w, m->key, at, &other, sizeof other);
-    }
-    if (m->type == AMBULO__TEXT) expect_seen(w, m->key, array + 1, &letter, 1);
-    if (m->type == AMBULO__NUMBER_ARRAY)
-      for (size_t k = 0; k < length * (size_t)m->count; k++)
-        expect_seen(w, m->key, array + k * sizeof number, &number, sizeof number);
-    if (m->type == AMBULO__INDEX_ARRAY)
-      for (size_t k = 0; k < length; k++)
-        expect_seen(w, m->key, array + k * sizeof integer, &integer, sizeof integer);
-    if (m->type == AMBULO__PART) expect_all_seen(w, m->of, at);
-    for (size_t k = 0; m->type == AMBULO__ITEMS && k < length; k++)
-      expect_all_seen(w, m->of, array + k * m->of->size);
-    char *nothing = NULL;
-    if (m->type == AMBULO__BORROWED && s != &ambulo__definition_members)
-      expect_seen(w, m->key, at, &nothing, sizeof nothing);
-  }
-}
-
-static void the_hash_sees_every_member(void **state) {
+static void reach_lasts_until_the_end(void **state) {
   (void)state;
-  whole w;
-  open(&w);
-  expect_all_seen(&w, &ambulo__definition_members, (char *)&w.d);
-  close(&w);
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  d.end_value_count = 0;
+  ambulo_problem *problem;
+  assert_int_equal(create(&d, &problem), AMBULO_OK);
+  int rows = ambulo_problem_row_count(problem);
+  ambulo_problem_free(problem);
+  ambulo_reach reach = ambulo_reach_default();
+  d.reaches = &reach;
+  d.reach_count = 1;
+  assert_int_equal(create(&d, &problem), AMBULO_E_PROBLEM); /* of no point */
+  reach.point = 0;
+  reach.tolerance = 0.5;
+  assert_int_equal(create(&d, &problem), AMBULO_OK);
+  assert_true(ambulo_problem_row_count(problem) > rows);
+  ambulo_row last;
+  assert_int_equal(ambulo_problem_row(problem, ambulo_problem_row_count(problem) - 1, &last),
+                   AMBULO_OK);
+  assert_string_equal(last.family, "reach");
+  assert_true(last.time == ambulo_problem_duration(problem));
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
 }
 
-static void the_hash_sees_the_model(void **state) {
+static void what_is_not_given_is_refused(void **state) {
   (void)state;
-  whole w;
-  open(&w);
-  const double number = 0.37;
-  ambulo_model *m = w.model;
-  for (int k = 0; k < 3; k++) {
-    expect_seen(&w, "gravity", &m->gravity[k], &number, sizeof number);
-    expect_seen(&w, "com", &m->links[1].com[k], &number, sizeof number);
-    expect_seen(&w, "position", &m->points[0].position[k], &number, sizeof number);
+  ambulo_model *model = arm_create();
+  ambulo_problem *problem;
+  const ambulo_contact contact = ambulo_contact_default();
+  const ambulo_end_value end = ambulo_end_value_default();
+  const ambulo_tube tube = ambulo_tube_default();
+  const ambulo_obstacle obstacle = ambulo_obstacle_default();
+  const ambulo_user_row row = ambulo_user_row_default();
+  for (int missing = 0; missing < 5; missing++) {
+    ambulo_problem_definition d = arm_definition(model);
+    d.contacts = &contact;
+    d.end_values = missing == 1 ? &end : d.end_values;
+    d.end_value_count = missing == 1 ? 1 : d.end_value_count;
+    d.tubes = &tube;
+    d.obstacles = &obstacle;
+    d.user_rows = &row;
+    d.contact_count = missing == 0;
+    d.tube_count = missing == 2;
+    d.obstacle_count = missing == 3;
+    d.user_row_count = missing == 4;
+    if (create(&d, &problem) == AMBULO_OK) fail_msg("missing %d is not refused", missing);
   }
-  expect_seen(&w, "mass", &m->links[1].mass, &number, sizeof number);
-  for (int k = 0; k < 6; k++)
-    expect_seen(&w, "inertia", &m->links[1].inertia[k], &number, sizeof number);
-  for (int side = 0; side < 2; side++) {
-    expect_seen(&w, "range", &m->coordinates[1].range[side], &number, sizeof number);
-    expect_seen(&w, "speed", &m->coordinates[1].speed[side], &number, sizeof number);
-    expect_seen(&w, "torque", &m->coordinates[1].torque[side], &number, sizeof number);
-  }
-  expect_seen(&w, "default", &m->coordinates[0].default_value, &number, sizeof number);
-  close(&w);
+  ambulo_model_free(model);
 }
 
-/* ---------------------------------------------------------------------- copies */
-
-static void a_copy_has_every_member_of_its_own(void **state) {
+static void gait_has_phases_of_people(void **state) {
   (void)state;
-  whole w;
-  ambulo_problem_definition copy;
-  ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  open(&w);
-  assert_int_equal(ambulo__definition_copy(&w.d, &a, &copy), AMBULO_OK);
-  unsigned long long hash = hash_of(&w);
-  assert_ptr_equal(copy.obstacles[0].name, w.d.obstacles[0].name); /* names outlive copies */
-  assert_ptr_not_equal(copy.terms[0].name, w.d.terms[0].name);
-  for (int i = 0; i < w.blocks; i++) memset(w.block[i], 0, w.size[i]);
-  assert_true(ambulo__definition_hash(&copy, w.model) == hash);
-  ambulo__definition_free(&a, &copy);
-  close(&w);
+  ambulo_model *model = walker_create(1);
+  ambulo_gait gait = ambulo_gait_default();
+  gait.step_length = 0.7;
+  gait.step_time = 0.55;
+  ambulo_contact contacts[20];
+  int count = 0;
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 20, &count), AMBULO_OK);
+  double down = 0.0;
+  for (int i = 0; i < count; i++) down += contacts[i].to - contacts[i].from;
+  /* of one step, in which both feet together are down for twice the share of a stride */
+  assert_true(fabs(down - 2.0 * 0.62 * 0.55) < 1e-12);
+  ambulo_model_free(model);
+}
+
+/* the parts that a definition has from the start */
+static void parts_are_those_of_the_definition(void **state) {
+  (void)state;
+  const ambulo_problem_definition d = ambulo_problem_definition_default();
+  const ambulo_ground_reaction reaction = ambulo_ground_reaction_default();
+  const ambulo_clearance clearance = ambulo_clearance_default();
+  const ambulo_collision collision = ambulo_collision_default();
+  assert_int_equal(reaction.kind, AMBULO_REACTION_NONE);
+  assert_true(reaction.moment_arm > 0.0 && reaction.moment_arm == d.ground_reaction.moment_arm);
+  assert_true(isnan(clearance.height) && clearance.turn == d.clearance.turn &&
+              clearance.turn > 0.0);
+  assert_int_equal(collision.mode, AMBULO_COLLISION_OFF);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_cover_their_structures), cmocka_unit_test(defaults_are_in_their_ranges),
-      cmocka_unit_test(the_hash_sees_every_member), cmocka_unit_test(the_hash_sees_the_model),
-      cmocka_unit_test(a_copy_has_every_member_of_its_own)};
+      cmocka_unit_test(row_stands_at_every_node),
+      cmocka_unit_test(reach_lasts_until_the_end),
+      cmocka_unit_test(what_is_not_given_is_refused),
+      cmocka_unit_test(gait_has_phases_of_people),
+      cmocka_unit_test(parts_are_those_of_the_definition),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

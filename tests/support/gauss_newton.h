@@ -4,8 +4,7 @@
 #define AMBULO_TESTS_GAUSS_NEWTON_H
 
 #include "problem/nlp.h"
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 #include "support/test.h"
 
 enum { GN_WIDEST = 512 }; /* unknowns that one node touches */

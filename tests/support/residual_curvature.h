@@ -3,8 +3,7 @@
 #ifndef AMBULO_TESTS_RESIDUAL_CURVATURE_H
 #define AMBULO_TESTS_RESIDUAL_CURVATURE_H
 
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 #include "support/test.h"
 
 /* residuals u of the composite terms at a node and their curvatures, or the channels */

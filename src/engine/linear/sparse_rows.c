@@ -1,7 +1,7 @@
 /* linear/sparse_rows.c - see sparse_rows.h. */
 #include "linear/sparse_rows.h"
 #include "base/worst.h"
-#include "problem/fault.h"
+#include "problem/nonfinite.h"
 
 #include <math.h>
 #include <string.h>

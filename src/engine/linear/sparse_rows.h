@@ -20,7 +20,7 @@
 #include "linear/pool.h"
 #include "linear/row_blocks.h"
 #include "linear/row_pattern.h"
-#include "problem/states.h"
+#include "problem/callbacks.h"
 #include "linear/poll.h"
 
 typedef struct ambulo__sparse_rows {

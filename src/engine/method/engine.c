@@ -7,7 +7,7 @@
 #include "method/polish.h"
 #include "method/restore.h"
 #include "method/retraction.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #include "method/engine_point.h"
 #include "base/worst.h"
 #include "method/parameters.h"
-#include "problem/fault.h"
+#include "problem/nonfinite.h"
 
 #include <math.h>
 #include <string.h>

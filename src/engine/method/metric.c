@@ -13,8 +13,7 @@
 #include "method/metric.h"
 #include "method/parameters.h"
 #include "base/worst.h"
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
  * H_GN = sum_k sum_u curvature_uk g_uk g_uk', u the residuals of the objective's terms
  * (problem/term.h) and g their gradients with respect to the unknowns of node k, of a rate also
  * of the next node: then the band is as wide as the two together. Terms of the caller have the
- * curvature of problem/user_term.h.
+ * curvature of problem/callbacks.h.
  */
 #ifndef AMBULO_METHOD_METRIC_H
 #define AMBULO_METHOD_METRIC_H

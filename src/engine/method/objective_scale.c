@@ -2,8 +2,7 @@
  * (metric.h). */
 #include "method/metric.h"
 #include "method/parameters.h"
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 
 static const double pi = 3.14159265358979323846;
 

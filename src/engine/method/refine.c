@@ -17,7 +17,7 @@
 #include "method/parameters.h"
 #include "method/pipeline.h"
 #include "problem/problem.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef AMBULO_METHOD_RUN_H
 #define AMBULO_METHOD_RUN_H
 
-#include "problem/states.h"
+#include "problem/callbacks.h"
 #include "ambulo/solve.h"
 #include "linear/poll.h"
 #include "method/history.h"

@@ -53,4 +53,10 @@ ambulo_status ambulo__extension_take(const ambulo_extension *given,
                                      ambulo__taken_definition *taken);
 void ambulo__definition_drop(ambulo__taken_definition *taken);
 
+/* Numbers for a body of another size (definition_resize.c): of the first `terms` terms of the
+ * objective, and of all else. The arrays of these terms, and the list of them, belong to the
+ * caller, and are written to. */
+void ambulo__definition_resize(ambulo_problem_definition *definition, int terms, double longer,
+                               double heavier);
+
 #endif

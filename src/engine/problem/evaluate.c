@@ -13,10 +13,10 @@
  * gradients separately, and SLSQP repeats every third point.
  */
 #include "base/worst.h"
-#include "problem/fault.h"
+#include "problem/callbacks.h"
+#include "problem/nonfinite.h"
 #include "problem/held.h"
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <string.h>
@@ -139,7 +139,7 @@ static double evaluate_terms(ambulo_workspace *workspace) {
   return total;
 }
 
-/* the slopes on its own channels; the others are never looked at (problem/states.h) */
+/* the slopes on its own channels; the others are never looked at (problem/callbacks.h) */
 static double curved_row_value(const ambulo_workspace *workspace, const ambulo__curved *row,
                                int node, double *slope) {
   const double *y = workspace->channel + ambulo__lane_index(node, workspace->channel_count, 0);
@@ -242,4 +242,47 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
   workspace->has_jacobian = 1;
   workspace->seconds_evaluate += ambulo__seconds_now() - start;
   return AMBULO_OK;
+}
+
+/* ------------------------------------------------- public names (ambulo/evaluate.h) */
+
+ambulo_status ambulo_problem_evaluate(const ambulo_problem *p, ambulo_workspace *workspace,
+                                      const double *x, double *objective, double *terms,
+                                      double *rows) {
+  if (!p || !workspace || workspace->problem != p || !x) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__evaluate(workspace, x);
+  if (status) return status;
+  if (objective) *objective = workspace->objective;
+  if (terms) memcpy(terms, workspace->term_value, (size_t)p->definition.term_count * sizeof *terms);
+  if (rows) memcpy(rows, workspace->row_value, (size_t)p->rows * sizeof *rows);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_problem_gradient(const ambulo_problem *p, ambulo_workspace *workspace,
+                                      const double *x, double objective_weight,
+                                      const double *row_weights, double *gradient) {
+  if (!p || !workspace || workspace->problem != p || !x || !gradient) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__evaluate(workspace, x);
+  if (status) return status;
+  return ambulo__gradient(workspace, objective_weight, row_weights, gradient);
+}
+
+ambulo_status ambulo_problem_row_gradient(const ambulo_problem *p, ambulo_workspace *workspace,
+                                          const double *x, int row, double *gradient) {
+  if (!p || !workspace || workspace->problem != p || !x || !gradient) return AMBULO_E_ARGUMENT;
+  if (row < 0 || row >= p->rows) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__evaluate_jacobian(workspace, x);
+  if (status) return status;
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+  ambulo__row_add_gradient(workspace, row, 1.0, gradient);
+  for (int j = 0; j < p->variables; j++) {
+    if (isfinite(gradient[j])) continue;
+    ambulo__fault_of_row(workspace, row, j, gradient[j]);
+    return AMBULO_E_NUMERIC;
+  }
+  return AMBULO_OK;
+}
+
+const ambulo_fault *ambulo_workspace_fault(const ambulo_workspace *workspace) {
+  return &workspace->fault;
 }

@@ -8,10 +8,172 @@
  *   mechanics: (gq, gqd, gqdd) = reverse sweep of (tau, M, F, points) with their adjoints
  *   basis:     dL/dx = B0' (gq + w_q) + B1' (gqd + w_qd) + B2' (gqdd + w_qdd)
  */
+#include "problem/nlp.h"
+
 #include "base/worst.h"
-#include "problem/adjoint.h"
-#include "problem/fault.h"
-#include "problem/states.h"
+#include "problem/callbacks.h"
+#include "problem/nonfinite.h"
+#include "problem/held.h"
+
+#include <string.h>
+
+static double *weight_at(ambulo_workspace *workspace, int node, int channel) {
+  return &workspace->weight[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
+/* one coordinate of a term, block by block; the padding has weight zero */
+static void add_residuals(ambulo_workspace *workspace, const ambulo_term *term, int i,
+                          double factor) {
+  const ambulo_problem *p = workspace->problem;
+  double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
+  int channel = ambulo__term_channel(term, &p->channels, i);
+  for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
+    size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
+    double *w = workspace->weight + at;
+    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
+    ambulo__term_shapes(term, 0.0, u, value, slope);
+    for (int l = 0; l < AMBULO__LANES; l++) w[l] += factor * p->quadrature[k + l] * slope[l];
+  }
+}
+
+static void add_residual_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
+  for (int i = 0; i < workspace->problem->coordinates; i++) {
+    double scale = ambulo__term_scale(term, i);
+    if (scale != 0.0) add_residuals(workspace, term, i, factor * scale);
+  }
+}
+
+static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
+  const ambulo_problem *p = workspace->problem;
+  int count = workspace->channel_count;
+  double *slope = workspace->node_state + count;
+  for (int k = 0; k < p->nodes; k++) {
+    ambulo__user_term_slope(workspace, term, k, slope);
+    for (int c = 0; c < count; c++)
+      *weight_at(workspace, k, c) += factor * p->quadrature[k] * slope[c];
+  }
+}
+
+static void add_composite_term(ambulo_workspace *workspace, const ambulo_term *term,
+                               double factor) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_context context = ambulo__term_context_of(workspace);
+  for (int k = 0; k < p->nodes; k++) {
+    double weight = factor * ambulo__term_quadrature(p, term, k);
+    int count = ambulo__term_forms(term, &context, k);
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &context, k, j, &form);
+      double slope = weight * ambulo__term_residual_from(term, 0.0, form.u).slope;
+      for (int c = 0; c < form.count; c++)
+        *weight_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
+    }
+  }
+}
+
+void ambulo__adjoint_term(ambulo_workspace *workspace, int t, double objective_weight) {
+  const ambulo_term *term = &workspace->problem->definition.terms[t];
+  double factor = objective_weight * term->weight;
+  if (factor == 0.0) return;
+  if (ambulo__is_user_term(term)) {
+    add_user_term(workspace, term, factor);
+  } else if (ambulo__term_is_simple(term)) {
+    add_residual_term(workspace, term, factor);
+  } else {
+    add_composite_term(workspace, term, factor);
+  }
+}
+
+static void add_user_row(ambulo_workspace *workspace, int r, double lambda) {
+  const ambulo__row_table *table = &workspace->problem->table;
+  const ambulo__curved *curved = ambulo__row_curved_of(table, &table->rows[r]);
+  int node = table->rows[r].node, channel[AMBULO__CURVED_CHANNELS];
+  int count = curved ? ambulo__curved_channels(curved, channel) : 0;
+  const double *slope = ambulo__user_slope(workspace, r);
+  for (int k = 0; k < count; k++)
+    *weight_at(workspace, node, channel[k]) += lambda * slope[channel[k]];
+  if (curved) return;
+  for (int c = 0; c < workspace->channel_count; c++) {
+    *weight_at(workspace, node, c) += lambda * slope[c];
+  }
+}
+
+/* a row with a term on an unknown */
+static void add_mixed_row(ambulo_workspace *workspace, const ambulo__table_row *row, double lambda,
+                          double *gradient) {
+  const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
+  for (int t = 0; t < row->term_count; t++) {
+    double *adjoint = term[t].node < 0 ? &gradient[term[t].channel]
+                                       : weight_at(workspace, term[t].node, term[t].channel);
+    *adjoint += lambda * term[t].coefficient;
+  }
+}
+
+void ambulo__adjoint_rows(ambulo_workspace *workspace, const double *row_weights,
+                          double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__row_runs *runs = &p->row_runs;
+  ambulo__row_runs_adjoint(runs, row_weights, workspace->weight);
+  for (int o = 0; o < runs->odd_count; o++) {
+    int r = runs->odd[o];
+    if (row_weights[r] == 0.0) continue;
+    if (p->table.rows[r].user >= 0) {
+      add_user_row(workspace, r, row_weights[r]);
+    } else {
+      add_mixed_row(workspace, &p->table.rows[r], row_weights[r], gradient);
+    }
+  }
+}
+
+void ambulo__adjoint_block(ambulo_workspace *workspace, int block) {
+  const ambulo_problem *p = workspace->problem;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  size_t offset = (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;
+  double *c = workspace->channel + offset, *w = workspace->weight + offset;
+  double *g = workspace->gradient_lanes;
+  const double *ground = ambulo__ground_block(p, p->ground, block);
+  const double *told = ambulo__told_block(p, p->told, block);
+  double *room = workspace->device_scratch;
+  ambulo__held_begin(p, told, c, workspace->scratch, room);
+  p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, ground, c + 3 * d8, workspace->scratch);
+  p->kernels->reverse(p->plan, c + d8, c + 2 * d8, ground, w + 3 * d8, g, g + d8, g + 2 * d8,
+                      workspace->scratch);
+  for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
+  ambulo__held_end(p, c, room);
+  ambulo__held_reverse(p, w, workspace->scratch, room);
+  if (!p->devices) return;
+  const double *effort = w + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
+  const ambulo__device_adjoints adjoints = {w + 3 * d8, effort, w, w + d8};
+  ambulo__devices_reverse(p->devices, c, c + d8, told, c + 3 * d8, &adjoints, room);
+}
+
+void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
+  memset(workspace->weight, 0, lanes * sizeof *workspace->weight);
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+}
+
+/* adjoints of objective_weight times all terms, at a point that is evaluated, and gradient to zero
+ */
+static void begin(ambulo_workspace *workspace, double objective_weight, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
+  const double *restrict slope = workspace->term_slope;
+  double *restrict weight = workspace->weight;
+  if (objective_weight == 0.0) { /* slopes may not be finite */
+    ambulo__adjoint_clear(workspace, gradient);
+    return;
+  }
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+  for (size_t e = 0; e < lanes; e++) weight[e] = objective_weight * slope[e];
+  for (int t = 0; t < p->definition.term_count; t++) {
+    if (ambulo__is_user_term(&p->definition.terms[t]))
+      ambulo__adjoint_term(workspace, t, objective_weight);
+  }
+}
+
+/* --------------------------------------------------------------------- the sweep */
 
 /* from the adjoints of the channels to the gradient */
 static void pull_back(ambulo_workspace *workspace, double *gradient) {
@@ -28,7 +190,7 @@ ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_wei
                                const double *row_weights, double *gradient) {
   double start = ambulo__seconds_now();
   size_t n = (size_t)workspace->problem->variables;
-  ambulo__adjoint_begin(workspace, objective_weight, gradient);
+  begin(workspace, objective_weight, gradient);
   if (row_weights) ambulo__adjoint_rows(workspace, row_weights, gradient);
   pull_back(workspace, gradient);
   int finite = ambulo__all_finite(gradient, n);

@@ -8,8 +8,7 @@
  * Local index c * d + i. A row is a sum of channels, and so are its slopes y_q, y_qd and y_qdd.
  */
 #include "problem/nlp.h"
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 
 #include <string.h>
 

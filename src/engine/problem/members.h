@@ -69,7 +69,7 @@ enum {
   AMBULO__REQUIRED = 1 << 3,        /* in files */
   AMBULO__RISING = 1 << 4,          /* two numbers, the first below the second */
   AMBULO__READ_APART = 1 << 5,      /* from files by code of its own, not by the loop */
-  AMBULO__BODY_LENGTH = 1 << 6,     /* as large as the body is long (problem/resize.h) */
+  AMBULO__BODY_LENGTH = 1 << 6,     /* as large as the body is long (problem/definition_resize.h) */
   AMBULO__NOT_COPIED = 1 << 7       /* a text that the problem does not own */
 };
 

@@ -21,7 +21,6 @@
  *
  * at q = 0: a rigid line is told by its direction, one over joints by the place of either end.
  */
-#include "problem/mirror_terms.h"
 
 #include "contact/devices.h"
 #include "contact/gait.h"

@@ -54,12 +54,13 @@ struct ambulo_problem {
   ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
   ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
-  ambulo_model *extended_model; /* `model` where capsules have rows (problem/bodies.c); else NULL */
+  ambulo_model
+      *extended_model;  /* `model` where capsules have rows (problem/queries.c); else NULL */
   ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section
       *free;                     /* one block (definitions/problem_free.h); NULL: nothing is free */
-  const ambulo_problem *extends; /* what this one extends (problem/extend.c); NULL: none */
+  const ambulo_problem *extends; /* what this one extends (problem/variants.c); NULL: none */
   ambulo_problem *owned_base;    /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
@@ -148,6 +149,18 @@ ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_wei
 
 /* After ambulo__evaluate: gradient of one objective term (its weight included). E_NUMERIC. */
 ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient);
+
+/* ---------------------------------------------- pieces of the reverse sweep (gradient.c) */
+
+/* workspace->weight holds the adjoints dL/dy of the channels y. */
+/* Adjoints and gradient [variables] to zero. */
+void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient);
+/* Adds one term of the objective, times objective_weight. */
+void ambulo__adjoint_term(ambulo_workspace *workspace, int term, double objective_weight);
+/* Adds sum_r weights[r] c_r; what stands on unknowns goes to the gradient at once. */
+void ambulo__adjoint_rows(ambulo_workspace *workspace, const double *row_weights, double *gradient);
+/* Adds the mechanics' reverse sweep to the adjoints of q, qd, qdd of one block. */
+void ambulo__adjoint_block(ambulo_workspace *workspace, int block);
 
 /* ---------------------------------------------------------- ground reaction */
 

@@ -4,10 +4,12 @@
  * lane map -> compiled mechanics -> schedule at the nodes -> rows of every family -> counts
  * and hash. After that nothing changes.
  *
- * Reading order: nlp.h, problem.h, problem.c, grid.c, workspace.c, evaluate.c, motion.c,
- * row_runs.h, gradient.c, adjoint.h, local_rows.c; derivative_check.c compares them.
+ * Reading order: nlp.h, problem.h, members.h, definition.h, problem.c, variants.c, workspace.c,
+ * term.h, evaluate.c, motion.c, row_runs.h, gradient.c, local_rows.c; derivative_check.c compares
+ * them.
  */
 #include "problem/problem.h"
+#include "model/capsule_points.h"
 #include "base/instant.h"
 #include "contact/load_profile.h"
 #include "contact/phases.h"
@@ -15,8 +17,7 @@
 #include "contact/patch_rows.h"
 #include "contact/flight.h"
 #include "contact/sharing.h"
-#include "problem/memory.h"
-#include "problem/mirror_terms.h"
+#include "problem/term.h"
 
 #include <math.h>
 #include <string.h>
@@ -179,8 +180,83 @@ static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics 
   return terms ? terms : devices ? devices : status;
 }
 
+/* ------------------------------------------------------------- capsules, obstacles */
+
+/* Capsules get points in the model, and their pairs are listed. Rows carry names, and what reports
+ * of them outlives the problem that made it: grids that a solve makes for itself. Names of capsules
+ * live in the model, which all grids of a problem share. So do they share obstacles' names, which
+ * belong to the problem of the first.
+ */
+
+/* the pairs of the definition as they came out; a copy of the list belongs to the definition */
+static ambulo_status resolve_pairs(ambulo_problem *p) {
+  ambulo_collision *c = &p->definition.collision;
+  ambulo__pairs pairs;
+  ambulo_status status = ambulo__pairs_create(&p->definition, &p->allocator, &pairs);
+  if (status) return status;
+  ambulo_capsule_pair *kept = ambulo__alloc(&p->allocator, (size_t)pairs.kept_count, sizeof *kept);
+  if (!kept) {
+    ambulo__pairs_free(&p->allocator, &pairs);
+    return AMBULO_E_MEMORY;
+  }
+  if (pairs.kept_count > 0) memcpy(kept, pairs.kept, (size_t)pairs.kept_count * sizeof *kept);
+  ambulo__definition_set_pairs(&p->allocator, &p->definition, kept, pairs.kept_count);
+  if (c->mode != AMBULO_COLLISION_OFF) c->mode = AMBULO_COLLISION_PAIRS;
+  p->pairs = pairs;
+  return AMBULO_OK;
+}
+
+static ambulo_status extend_model(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  const ambulo_model *m = p->definition.model;
+  size_t count = (size_t)m->capsule_count;
+  int missing = 0, *used = ambulo__alloc(&p->allocator, count, sizeof *used);
+  if (!used) return AMBULO_E_MEMORY;
+  for (int i = 0; i < m->capsule_count; i++) {
+    used[i] = ambulo__capsule_is_used(&p->definition, i);
+    missing += used[i] && m->capsule_point[i] < 0;
+  }
+  ambulo_status status = AMBULO_OK;
+  if (missing > 0) {
+    status =
+        ambulo__model_with_capsule_points(m, used, &p->allocator, diagnostics, &p->extended_model);
+    if (!status) p->definition.model = p->extended_model;
+  }
+  ambulo__free(&p->allocator, used);
+  return status;
+}
+
+static ambulo_status add_bodies(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  ambulo_status status = resolve_pairs(p);
+  return status ? status : extend_model(p, diagnostics);
+}
+
+/* a copy of the obstacles with copies of their names, both freed by the caller */
+static ambulo_status copy_obstacles(const ambulo_problem_definition *d,
+                                    const ambulo_allocator *allocator, ambulo_obstacle **obstacles,
+                                    char **names) {
+  size_t size = 1, count = (size_t)d->obstacle_count;
+  for (size_t i = 0; i < count; i++) size += strlen(d->obstacles[i].name) + 1;
+  *names = ambulo__alloc(allocator, size, 1);
+  *obstacles = ambulo__alloc(allocator, count, sizeof **obstacles);
+  if (!*names || !*obstacles) {
+    ambulo__free(allocator, *names);
+    ambulo__free(allocator, *obstacles);
+    return AMBULO_E_MEMORY;
+  }
+  char *end = *names;
+  for (size_t i = 0; i < count; i++) {
+    size_t length = strlen(d->obstacles[i].name) + 1;
+    (*obstacles)[i] = d->obstacles[i];
+    (*obstacles)[i].name = memcpy(end, d->obstacles[i].name, length);
+    end += length;
+  }
+  return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------- the whole */
+
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
-  ambulo_status status = ambulo__problem_add_bodies(p, diagnostics);
+  ambulo_status status = add_bodies(p, diagnostics);
   if (status) return status;
   p->model = p->definition.model;
   p->coordinates = ambulo_model_coordinate_count(p->model);
@@ -236,7 +312,7 @@ static ambulo_status create(const ambulo_problem_definition *definition,
   char *names = NULL;
   ambulo_status status = ambulo__definition_check(definition, diagnostics);
   if (!status && definition->obstacle_count > 0) {
-    status = ambulo__obstacles_copy(definition, &own, &obstacles, &names);
+    status = copy_obstacles(definition, &own, &obstacles, &names);
     named.obstacles = obstacles;
   }
   if (!status) status = ambulo__problem_build(&named, allocator, diagnostics, problem);

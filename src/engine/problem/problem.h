@@ -8,15 +8,6 @@
 /* A problem of more rows is refused. */
 enum { AMBULO__MOST_ROWS = 50000000 };
 
-/* bodies.c: of a problem that was checked, the model with points on its capsules, and the pairs of
- * automatic collision as pairs that are listed. E_MEMORY, E_MODEL, E_LIMIT. */
-ambulo_status ambulo__problem_add_bodies(ambulo_problem *problem, ambulo_diagnostics *diagnostics);
-/* A copy of the obstacles with copies of their names in *names, both freed by the caller; those of
- * problems made from this one are the same. E_MEMORY. */
-ambulo_status ambulo__obstacles_copy(const ambulo_problem_definition *definition,
-                                     const ambulo_allocator *allocator, ambulo_obstacle **obstacles,
-                                     char **names);
-
 /* start_pose.c: unknowns x [variables] of a motion that rests in the model's start pose. */
 void ambulo__start_pose(const ambulo_problem *problem, double *x);
 /* The same problem on another grid: `intervals` time intervals and `spline_intervals`
@@ -37,5 +28,16 @@ ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *b
 ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+
+/* ---------------------------------------------------------- memory (workspace.c) */
+
+/* How much a problem takes, before it is taken; bytes, as doubles: absurd sizes do not overflow
+ * them. Of a workspace of a problem whose grid and plan are there. */
+double ambulo__workspace_bytes(const ambulo_problem *problem, int with_jacobians);
+/* Of the rows that this definition can bring at the most, with the tables made of them. */
+double ambulo__row_bytes(const ambulo_problem *problem, double rows);
+double ambulo__rows_at_most(const ambulo_problem *problem);
+/* E_LIMIT with the figures when a problem whose grid and plan are there would not fit. */
+ambulo_status ambulo__check_memory(const ambulo_problem *problem, ambulo_diagnostics *diagnostics);
 
 #endif

@@ -13,9 +13,7 @@
  * phi'' of a smoothed absolute value is replaced by phi'(u)/u, the curvature of the
  * quadratic that majorizes it (iteratively reweighted least squares).
  *
- * User terms are functions of a node of the caller's own (problem/user_term.h).
- *
- * Reading order: term.h, term.c, term_kinds.c: its table last, one law before it.
+ * User terms are functions of a node of the caller's own (problem/callbacks.h).
  */
 #ifndef AMBULO_PROBLEM_TERM_H
 #define AMBULO_PROBLEM_TERM_H
@@ -82,7 +80,8 @@ typedef struct ambulo__term_info {
   int members;             /* AMBULO__TERM_SCALE | ... */
   double smoothing, power; /* usual ones; 0: 1 and 2 */
   int is_rate;             /* residuals are those of intervals, not of nodes */
-  int weight_is_length;    /* the weight is as large as the body is long (problem/resize.h) */
+  int weight_is_length; /* the weight is as large as the body is long (problem/definition_resize.h)
+                         */
   /* Of composite kinds: how many residuals there are at a node, and one of them. */
   int (*forms)(const struct ambulo__term_context *context);
   void (*form)(const ambulo_term *term, const struct ambulo__term_context *context, int node, int j,
@@ -172,5 +171,27 @@ void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope);
 double ambulo__passive_torque(const double curve[4], double q, double *derivative);
 /* Isometric strength peak cos(c2 (q - c3)), kept above a tenth of the peak. */
 double ambulo__strength(const double curve[3], double q, double *derivative);
+
+/* ------------------------------------------- the two sides of the body (mirror_terms.c) */
+
+/* With mirrored ends: what a term asks of a coordinate or a line, it or another term asks of the
+ * mirror partner. Left alone are references of tracking terms and what a reference lacks on one
+ * side (they are about one step), and user terms. E_PROBLEM, each difference with both names and
+ * numbers; E_MEMORY. */
+ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *definition,
+                                         const ambulo_allocator *allocator,
+                                         ambulo_diagnostics *diagnostics);
+
+/* That of one term, by its kind (term_kinds.c): coordinates, a line of the body, scales of devices.
+ */
+ambulo_status ambulo__mirror_coordinates(const ambulo_problem_definition *definition,
+                                         const struct ambulo__segments *segments, int term,
+                                         ambulo_diagnostics *diagnostics);
+ambulo_status ambulo__mirror_line(const ambulo_problem_definition *definition,
+                                  const struct ambulo__segments *segments, int term,
+                                  ambulo_diagnostics *diagnostics);
+ambulo_status ambulo__mirror_device_scales(const ambulo_problem_definition *definition,
+                                           const struct ambulo__segments *segments, int term,
+                                           ambulo_diagnostics *diagnostics);
 
 #endif

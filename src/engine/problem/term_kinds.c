@@ -2,7 +2,6 @@
  *
  * A new kind is a constant of ambulo_term_kind, a law and a row of the table. */
 #include "model/neutral_pose.h"
-#include "problem/mirror_terms.h"
 #include "problem/term.h"
 
 #include <math.h>

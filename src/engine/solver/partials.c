@@ -1,7 +1,7 @@
 /* solver/partials.c - see partials.h. */
 #include "solver/partials.h"
 
-#include "problem/adjoint.h"
+#include "problem/nlp.h"
 
 ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__pool *pool,
                                       ambulo__partials *partials) {

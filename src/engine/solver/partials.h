@@ -7,7 +7,7 @@
  *     df* / dp = dL(x*, lambda; p) / dp,     L = f(x; p) - sum_r lambda_r c_r(x; p)
  *
  * for rows c_r = 0 and c_r >= 0, lambda_r >= 0 of the latter. With the channels y(x; p) of
- * contact/channels.h and their adjoints w = dL/dy (problem/adjoint.h), whose rows have the weights
+ * contact/channels.h and their adjoints w = dL/dy (problem/gradient.h), whose rows have the weights
  * -lambda_r,
  *
  *     dL / dp = df/dp | y - sum_r lambda_r dc_r/dp | y + sum w dy/dp | x

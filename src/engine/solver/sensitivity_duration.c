@@ -16,8 +16,8 @@
  */
 #include "solver/partials.h"
 
-#include "problem/adjoint.h"
-#include "problem/states.h"
+#include "problem/nlp.h"
+#include "problem/callbacks.h"
 
 /* the rows' own part: s_o */
 static double pull_of_ends(const ambulo__stationary *s) {

@@ -31,8 +31,7 @@
  */
 #include "solver/partials.h"
 
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 
 #include <math.h>
 

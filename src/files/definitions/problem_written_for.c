@@ -1,10 +1,10 @@
 /* definitions/problem_written_for.c - `written_for` of a problem file: the body its numbers are
  * for.
  *
- * What becomes of them for the subject is problem/resize.h's.
+ * What becomes of them for the subject is problem/definition_resize.h's.
  */
 #include "definitions/problem_reader.h"
-#include "problem/resize.h"
+#include "problem/definition.h"
 
 void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   ambulo__problem_keys *keys = &reader->keys;

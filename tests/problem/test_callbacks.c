@@ -1,6 +1,6 @@
 /* Terms of the caller: squares have the curvature of Gauss and Newton, others that of probes, at
  * any scale; what is bent down or not finite has none. */
-#include "problem/user_term.h"
+#include "problem/callbacks.h"
 #include "support/problem_fixture.h"
 
 typedef struct bent {

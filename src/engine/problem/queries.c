@@ -1,13 +1,13 @@
-/* problem/query.c - what a problem tells about itself. */
-#include "problem/definition.h"
-#include "problem/problem.h"
-
+/* problem/queries.c - what a problem tells about itself. */
 #include "base/instant.h"
 #include "contact/bounds.h"
 #include "contact/loading.h"
 #include "contact/phases.h"
+#include "problem/definition.h"
+#include "problem/problem.h"
 
 #include <math.h>
+#include <string.h>
 
 const char *ambulo_problem_name(const ambulo_problem *p) {
   return p->definition.name;
@@ -146,4 +146,34 @@ int ambulo_problem_contact_at(const ambulo_problem *p, int foot, double time) {
 int ambulo_problem_patch_contact_at(const ambulo_problem *p, int patch, double time) {
   int known = patch >= 0 && patch < p->model->patch_count;
   return known ? contact_index(p, p->model->foot_count + patch, time) : -1;
+}
+
+/* how many there are; the index-th one into *pair */
+static int nth(const ambulo_capsule_pair *pairs, int count, int index, ambulo_capsule_pair *pair) {
+  if (pair && index >= 0 && index < count) *pair = pairs[index];
+  return count;
+}
+
+int ambulo_problem_pairs(const ambulo_problem *p, int index, ambulo_capsule_pair *pair) {
+  if (!p || p->definition.collision.mode == AMBULO_COLLISION_OFF) return 0;
+  return nth(p->definition.collision.pairs, p->definition.collision.pair_count, index, pair);
+}
+
+int ambulo_problem_pairs_left_out(const ambulo_problem *p, int index, ambulo_capsule_pair *pair) {
+  if (!p) return 0;
+  const ambulo__pairs *pairs = &ambulo__problem_root(p)->pairs; /* an extension is given the rest */
+  return nth(pairs->left, pairs->left_count, index, pair);
+}
+
+int ambulo_problem_pairs_too_far(const ambulo_problem *p) {
+  return p ? ambulo__problem_root(p)->pairs.too_far : 0;
+}
+
+int ambulo_problem_obstacle_count(const ambulo_problem *p) {
+  return p ? p->definition.obstacle_count : 0;
+}
+
+const ambulo_obstacle *ambulo_problem_obstacle(const ambulo_problem *p, int index) {
+  return p && index >= 0 && index < p->definition.obstacle_count ? &p->definition.obstacles[index]
+                                                                 : NULL;
 }

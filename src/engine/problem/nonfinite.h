@@ -1,9 +1,9 @@
-/* problem/fault.h - which value or derivative is not finite, once one was seen.
+/* problem/nonfinite.h - which value or derivative is not finite, once one was seen.
  *
  * Looking for it costs a few evaluations. The functions write workspace->fault.
  */
-#ifndef AMBULO_PROBLEM_FAULT_H
-#define AMBULO_PROBLEM_FAULT_H
+#ifndef AMBULO_PROBLEM_NONFINITE_H
+#define AMBULO_PROBLEM_NONFINITE_H
 
 #include "problem/nlp.h"
 

@@ -1,6 +1,31 @@
-/* problem/user_term.c - see user_term.h.
- *
- * Curvature. A square has that of Gauss and Newton, 2 (dr/dy)(dr/dy)', exact where r is linear. Of
+/* problem/callbacks.c - functions of the caller: see callbacks.h. */
+#include "problem/callbacks.h"
+
+#include <math.h>
+#include <string.h>
+
+void ambulo__node_state_fill(const ambulo_workspace *workspace, int node, double *state) {
+  for (int c = 0; c < workspace->channel_count; c++)
+    state[c] = workspace->channel[ambulo__lane_index(node, workspace->channel_count, c)];
+}
+
+ambulo_node_state ambulo__node_state_view(const ambulo_problem *p, int node, const double *state) {
+  int d = p->coordinates;
+  ambulo_node_state view = {p->times[node], node,          state,         state + d,
+                            state + 2 * d,  state + 3 * d, state + 4 * d, state + 4 * d + 6};
+  return view;
+}
+
+ambulo_node_gradient ambulo__node_gradient_view(const ambulo_problem *p, double *slope) {
+  int d = p->coordinates;
+  ambulo_node_gradient view = {slope,         slope + d,     slope + 2 * d,
+                               slope + 3 * d, slope + 4 * d, slope + 4 * d + 6};
+  return view;
+}
+
+/* ------------------------------------------------------------ terms of the caller */
+
+/* Curvature. A square has that of Gauss and Newton, 2 (dr/dy)(dr/dy)', exact where r is linear. Of
  * another function only the gradient g is known. With signs s_c = +-1 and steps d_c,
  *
  *     D_c = s_c ( g_c(y + d s) - g_c(y) ) / d_c
@@ -12,11 +37,6 @@
  * has its exact diagonal, whatever its scale. What is negative, or not finite, counts as no
  * curvature: the metric is a guess that only decides how fast a solve goes, never where it ends.
  */
-#include "problem/user_term.h"
-#include "problem/states.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { PROBES = 4 };
 static const double share = 1e-4; /* of a channel's usual size: step of a probe */

@@ -1,14 +1,14 @@
-/* problem/fault.c - see fault.h.
+/* problem/nonfinite.c - see fault.h.
  *
  * Values: the unknowns, then the rows, then each term node by node, with the channels that the
  * failed evaluation left. Derivatives: the reverse sweep of gradient.c once more, piece by piece;
  * the first adjoint that is not finite stands at a node and a channel. Adjoints that are all
  * finite leave the mechanics, where block by block the lanes tell the node.
  */
-#include "problem/fault.h"
-#include "problem/adjoint.h"
-#include "problem/states.h"
-#include "problem/user_term.h"
+#include "problem/nonfinite.h"
+
+#include "problem/callbacks.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <stdio.h>
