@@ -22,8 +22,9 @@ cat "$folder"/*.h "$folder"/tools/*.h | awk '
     while (match(text, /\n *#[^\n]*/)) text = substr(text, 1, RSTART - 1) " " substr(text, RSTART + RLENGTH)
     gsub(/[ \t\n]+/, " ", text)
     rest = text
-    while (match(rest, /AMBULO_DEFAULT\([a-z_]+\)/)) {
-      defaults[substr(rest, RSTART + 15, RLENGTH - 16)] = 1; rest = substr(rest, RSTART + RLENGTH) }
+    while (match(rest, /AMBULO_([A-Z]+_)?DEFAULT\([a-z_]+\)/)) {
+      one = substr(rest, RSTART, RLENGTH - 1); rest = substr(rest, RSTART + RLENGTH)
+      sub(/.*\(/, "", one); defaults[one] = 1 }
     rest = text
     while (match(rest, /ambulo_[a-z_]+_default\(/)) {
       defaults[substr(rest, RSTART, RLENGTH - 9)] = 1; rest = substr(rest, RSTART + RLENGTH) }

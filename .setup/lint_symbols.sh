@@ -18,7 +18,6 @@ report "private symbols (ambulo__*) exported by $1" "$(grep '^ambulo__' <<<"$exp
 # functions of the public headers that the library does not define
 declared=$(cat include/ambulo/*.h include/ambulo/tools/*.h | tr '\n' ' ' | sed 's#/\*[^*]*\*\+\([^/*][^*]*\*\+\)*/##g' |
   grep -oE 'AMBULO_API [^;]*;' | sed -E 's/.*[ *](ambulo_[a-z0-9_]+)\(.*/\1/' | grep '^ambulo_')
-declared+=$'\n'$(grep -ohE 'AMBULO_DEFAULT\(ambulo_[a-z_]+\);' include/ambulo/*.h  include/ambulo/tools/*.h | sed -E 's/.*\((.*)\);/\1_fill/')
 report "declared in include/ambulo, but not exported" \
   "$(comm -23 <(sort -u <<<"$declared") <(sort -u <<<"$exported"))"
 

@@ -79,10 +79,10 @@ typedef struct ambulo_reach {
 
 /* Off, without pairs; a box for all capsules, without size; a point that is to be named, at the
  * world's origin from 0 until the end. */
-AMBULO_DEFAULT(ambulo_collision);
-AMBULO_DEFAULT(ambulo_obstacle);
-AMBULO_DEFAULT(ambulo_reach);
-AMBULO_DEFAULT(ambulo_capsule_pair); /* -1, to be given */
+AMBULO_PROBLEM_DEFAULT(ambulo_collision);
+AMBULO_PROBLEM_DEFAULT(ambulo_obstacle);
+AMBULO_PROBLEM_DEFAULT(ambulo_reach);
+AMBULO_PROBLEM_DEFAULT(ambulo_capsule_pair); /* -1, to be given */
 
 #ifdef __cplusplus
 }

@@ -78,11 +78,11 @@ typedef struct ambulo_device {
 } ambulo_device;
 
 /* Stiffness 0, damping 0, amount 1, both sides, a smoothing of 0.01, no clutch, no place. */
-AMBULO_API void ambulo_device_fill(ambulo_device *filled, ambulo_device_kind kind, size_t size);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_device ambulo_device_default(ambulo_device_kind kind) {
   ambulo_device usual;
-  ambulo_device_fill(&usual, kind, sizeof usual);
+  usual.kind = kind;
+  ambulo_problem_defaults("ambulo_device", &usual, sizeof usual);
   return usual;
 }
 #endif

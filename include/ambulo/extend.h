@@ -18,14 +18,13 @@ typedef struct ambulo_extension {
   const ambulo_user_row *user_rows; /* likewise */
   int user_row_count;
 } ambulo_extension;
-AMBULO_API void ambulo_extension_fill(ambulo_extension *filled);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_extension ambulo_extension_default(void) { /* nothing */
   ambulo_extension usual;
   usual.size = sizeof usual;
   usual.term_size = sizeof(ambulo_term);
   usual.user_row_size = sizeof(ambulo_user_row);
-  ambulo_extension_fill(&usual);
+  ambulo_defaults("ambulo_extension", &usual, sizeof usual);
   return usual;
 }
 #endif

@@ -61,8 +61,8 @@ typedef struct ambulo_clearance {
 } ambulo_clearance;
 
 /* Those of ambulo_problem_definition_default(): none, and no rows. */
-AMBULO_DEFAULT(ambulo_ground_reaction);
-AMBULO_DEFAULT(ambulo_clearance);
+AMBULO_PROBLEM_DEFAULT(ambulo_ground_reaction);
+AMBULO_PROBLEM_DEFAULT(ambulo_clearance);
 
 #ifdef __cplusplus
 }

@@ -51,7 +51,7 @@ typedef struct ambulo_hold {
 } ambulo_hold;
 
 /* One hand (-1), all along, a ramp of 0.1 s, zeros. */
-AMBULO_DEFAULT(ambulo_hold);
+AMBULO_PROBLEM_DEFAULT(ambulo_hold);
 
 #ifdef __cplusplus
 }

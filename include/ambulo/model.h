@@ -146,7 +146,6 @@ typedef struct ambulo_model_definition {
 } ambulo_model_definition;
 
 /* Gravity -9.81 along y, forward x, no links. */
-AMBULO_API void ambulo_model_definition_fill(ambulo_model_definition *filled);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_model_definition ambulo_model_definition_default(void) {
   ambulo_model_definition usual;
@@ -157,7 +156,7 @@ static inline ambulo_model_definition ambulo_model_definition_default(void) {
   usual.foot_size = sizeof(ambulo_foot);
   usual.patch_size = sizeof(ambulo_patch);
   usual.capsule_size = sizeof(ambulo_capsule);
-  ambulo_model_definition_fill(&usual);
+  ambulo_defaults("ambulo_model_definition", &usual, sizeof usual);
   return usual;
 }
 #endif

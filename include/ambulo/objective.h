@@ -107,15 +107,15 @@ typedef struct ambulo_user_row {
 } ambulo_user_row;
 
 /* Of weight 1, each number as docs/problem-format.md has it; a row c >= 0 at every node. */
-AMBULO_API void ambulo_term_fill(ambulo_term *filled, ambulo_term_kind kind, size_t size);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_term ambulo_term_default(ambulo_term_kind kind) {
   ambulo_term usual;
-  ambulo_term_fill(&usual, kind, sizeof usual);
+  usual.kind = kind;
+  ambulo_problem_defaults("ambulo_term", &usual, sizeof usual);
   return usual;
 }
 #endif
-AMBULO_DEFAULT(ambulo_user_row);
+AMBULO_PROBLEM_DEFAULT(ambulo_user_row);
 
 #ifdef __cplusplus
 }

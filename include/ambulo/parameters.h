@@ -60,7 +60,6 @@ typedef struct ambulo_parameters {
 
 /* None. And what the problem's file says under `free`; strings and items belong to the problem,
  * count is 0 for files without, and for problems made from C. */
-AMBULO_API void ambulo_parameters_fill(ambulo_parameters *filled);
 AMBULO_API void ambulo_problem_parameters_fill(const ambulo_problem *problem,
                                                ambulo_parameters *filled);
 #ifndef AMBULO_DECLARATIONS_ONLY
@@ -68,7 +67,7 @@ static inline ambulo_parameters ambulo_parameters_default(void) {
   ambulo_parameters usual;
   usual.size = sizeof usual;
   usual.parameter_size = sizeof(ambulo_parameter);
-  ambulo_parameters_fill(&usual);
+  ambulo_defaults("ambulo_parameters", &usual, sizeof usual);
   return usual;
 }
 static inline ambulo_parameters ambulo_problem_parameters(const ambulo_problem *problem) {

@@ -103,14 +103,13 @@ typedef struct ambulo_gait {
 } ambulo_gait;
 
 /* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people. */
-AMBULO_DEFAULT(ambulo_contact);
-AMBULO_API void ambulo_gait_fill(ambulo_gait *filled);
+AMBULO_PROBLEM_DEFAULT(ambulo_contact);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_gait ambulo_gait_default(void) {
   ambulo_gait usual;
   usual.size = sizeof usual;
   usual.contact_size = sizeof(ambulo_contact);
-  ambulo_gait_fill(&usual);
+  ambulo_defaults("ambulo_gait", &usual, sizeof usual);
   return usual;
 }
 #endif
@@ -159,8 +158,8 @@ typedef struct ambulo_tube {
   const double *half_width; /* [d], rad or m, >= 0; INFINITY: the coordinate is free */
 } ambulo_tube;
 
-AMBULO_DEFAULT(ambulo_end_value); /* a value of 0 at the start, of nothing yet */
-AMBULO_DEFAULT(ambulo_tube);      /* none */
+AMBULO_PROBLEM_DEFAULT(ambulo_end_value); /* a value of 0 at the start, of nothing yet */
+AMBULO_PROBLEM_DEFAULT(ambulo_tube);      /* none */
 
 /* ---------------------------------------------------------------- definition */
 
@@ -236,7 +235,6 @@ typedef struct ambulo_problem_definition {
 } ambulo_problem_definition;
 
 /* One second, 12 equal intervals, cubic B-spline, everything else off or empty. */
-AMBULO_API void ambulo_problem_definition_fill(ambulo_problem_definition *filled);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_problem_definition ambulo_problem_definition_default(void) {
   ambulo_problem_definition usual;
@@ -254,7 +252,7 @@ static inline ambulo_problem_definition ambulo_problem_definition_default(void) 
   usual.clearance_size = sizeof(ambulo_clearance);
   usual.ground_reaction_size = sizeof(ambulo_ground_reaction);
   usual.collision_size = sizeof(ambulo_collision);
-  ambulo_problem_definition_fill(&usual);
+  ambulo_problem_defaults("ambulo_problem_definition", &usual, sizeof usual);
   return usual;
 }
 #endif

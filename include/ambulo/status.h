@@ -57,24 +57,6 @@ extern "C" {
  *   a pointer; a flag or a count                    NULL; 0 */
 #define AMBULO_OFF ((double)NAN)
 
-/* Declares name_fill(), which sets the first `size` bytes of a structure to what is usual, and
- * name_default(), that of the structure as the caller's header has it. AMBULO_DECLARATIONS_ONLY is
- * for programs that read these headers, and no C. */
-#ifdef AMBULO_DECLARATIONS_ONLY
-#define AMBULO_DEFAULT(name) AMBULO_API void name##_fill(name *filled, size_t size)
-#else
-/* NOLINTBEGIN(bugprone-macro-parentheses): a type takes none */
-#define AMBULO_DEFAULT(name)                                                                       \
-  AMBULO_API void name##_fill(name *filled, size_t size);                                          \
-  static inline name name##_default(void) {                                                        \
-    name usual;                                                                                    \
-    name##_fill(&usual, sizeof usual);                                                             \
-    return usual;                                                                                  \
-  }                                                                                                \
-  struct ambulo_allocator
-/* NOLINTEND(bugprone-macro-parentheses) */
-#endif
-
 /* One list for codes, names and texts: X(identifier, name, exit status, text).
  * "exit status" is what the command-line program returns for it. */
 #define AMBULO_STATUS_LIST(X)                                                                      \
@@ -103,6 +85,36 @@ AMBULO_API const char *ambulo_status_text(ambulo_status status);
 
 /* Process exit status that the command-line program uses for `status`. */
 AMBULO_API int ambulo_status_exit_code(ambulo_status status);
+
+/* ----------------------------------------------------------------- defaults */
+
+/* Sets the first `bytes` bytes of the structure type `name` ("ambulo_options") to its defaults:
+ * what
+ * `_default()` of the headers calls. A `size` member becomes `bytes`. Sizes of items and parts, and
+ * the kind of a device or a term, on which defaults depend, are set by the caller before.
+ * ambulo_problem_defaults knows a problem's definition and its parts, ambulo_defaults the other
+ * structures of the engine, ambulo_tool_defaults (ambulo/tools/common.h) those of the tools.
+ * E_ARGUMENT, and nothing is written: another name. */
+AMBULO_API ambulo_status ambulo_defaults(const char *name, void *structure, size_t bytes);
+AMBULO_API ambulo_status ambulo_problem_defaults(const char *name, void *structure, size_t bytes);
+
+/* Defines name_default() by one of those. AMBULO_DECLARATIONS_ONLY is for programs that read these
+ * headers, and no C. */
+#ifdef AMBULO_DECLARATIONS_ONLY
+#define AMBULO_DEFAULT_BY(function, name) struct ambulo_allocator
+#else
+/* NOLINTBEGIN(bugprone-macro-parentheses): a type takes none */
+#define AMBULO_DEFAULT_BY(function, name)                                                          \
+  static inline name name##_default(void) {                                                        \
+    name usual;                                                                                    \
+    function(#name, &usual, sizeof usual);                                                         \
+    return usual;                                                                                  \
+  }                                                                                                \
+  struct ambulo_allocator
+/* NOLINTEND(bugprone-macro-parentheses) */
+#endif
+#define AMBULO_DEFAULT(name) AMBULO_DEFAULT_BY(ambulo_defaults, name)
+#define AMBULO_PROBLEM_DEFAULT(name) AMBULO_DEFAULT_BY(ambulo_problem_defaults, name)
 
 /* ---------------------------------------------------------------- allocator */
 

@@ -32,8 +32,6 @@ typedef struct job {
   ambulo__text_buffer text;
 } job;
 
-AMBULO__FILL(ambulo_export_options, {.size = size, .format = AMBULO_EXPORT_OPENSIM})
-
 /* ------------------------------------------------------------------------ refusals */
 
 static ambulo_status check_names(const job *j, const char *own) {

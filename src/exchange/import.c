@@ -14,8 +14,6 @@
 #include "formats/output_check.h"
 #include "exchange/formats.h"
 
-AMBULO__FILL(ambulo_import_options, {.size = size})
-
 int ambulo_import_available(void) {
 #ifdef AMBULO_HAS_EXPAT
   return 1;

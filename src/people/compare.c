@@ -36,11 +36,6 @@ typedef struct comparing {
   ambulo_comparison *result;
 } comparing;
 
-AMBULO__FILL(ambulo_compare_options, {.size = size,
-                                      .pelvic_tilt = 0.19896753472735357,
-                                      .strike = AMBULO_OFF,
-                                      .mass = AMBULO_OFF})
-
 static int options_valid(const ambulo_compare_options *o) {
   if (!isfinite(o->pelvic_tilt) || isinf(o->strike)) return 0;
   if (!isnan(o->mass) && !(o->mass > 0.0 && isfinite(o->mass))) return 0;

@@ -23,16 +23,6 @@
 #include "formats/motion_csv.h"
 #include "model/model.h"
 
-AMBULO__FILL(ambulo_inverse_options, {.size = size,
-                                      .length_unit = 1.0,
-                                      .time_unit = 1.0,
-                                      .force_length_unit = 1.0,
-                                      .force_time_unit = 1.0,
-                                      .cutoff = AMBULO_OFF,
-                                      .force_cutoff = AMBULO_OFF,
-                                      .filter_order = 4})
-AMBULO__FILL(ambulo_inverse_outputs, {.size = size})
-
 static int is_unit(double unit) {
   return unit > 0.0 && isfinite(unit);
 }

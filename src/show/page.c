@@ -142,9 +142,6 @@ enum { START_BYTES = 1024 };
 static const char own_mark[] = "<meta name=\"generator\" content=\"ambulo report\">";
 static const char data_mark[] = "/*DATA*/";
 
-AMBULO__FILL(ambulo_page_options,
-             {.size = size, .from = -(double)INFINITY, .to = (double)INFINITY, .megabytes = 3.0})
-
 static int options_are_valid(const ambulo_page_options *o) {
   if (!isfinite(o->ground_height)) return 0;
   if (!(o->megabytes >= 0.0 && o->megabytes <= 1e6)) return 0;

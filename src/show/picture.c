@@ -163,9 +163,6 @@ ambulo_status ambulo__picture_convert(const ambulo__text_buffer *svg, ambulo__pi
 
 enum { MOST_BYTES = 256 << 20 };
 
-AMBULO__FILL(ambulo_picture_options,
-             {.size = size, .millimetres = AMBULO_OFF, .dots_per_inch = 300.0})
-
 /* NULL: the defaults. 0 when what was given is not valid */
 static int options_of(const ambulo_picture_options *given, ambulo_picture_options *o) {
   return AMBULO__OWN(ambulo_picture_options, o, given) && (int)o->parts >= 0 &&

@@ -77,8 +77,6 @@ static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.
 static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
                                          sizeof file_names / sizeof *file_names};
 
-AMBULO__FILL(ambulo_report_options, {.size = size})
-
 /* NULL: the defaults. 0 when what was given is not valid */
 static int options_of(const ambulo_report_options *given, ambulo_report_options *options) {
   return AMBULO__OWN(ambulo_report_options, options, given) && options->samples >= 0 &&
@@ -234,9 +232,4 @@ ambulo_status ambulo_report_summary(const ambulo_problem *problem, const ambulo_
   if (!status && !copy) status = AMBULO_E_MEMORY;
   if (!status) *text = copy;
   return status;
-}
-
-void ambulo_text_free(char *text, const ambulo_allocator *allocator) {
-  ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  ambulo__free(&own, text);
 }

@@ -28,9 +28,6 @@
 enum { MOST_WORKERS = 4096 };
 static const double report_seconds = 0.2;
 
-AMBULO__FILL(ambulo_batch_options,
-             {.size = size, .shard = 1, .shards = 1, .case_seconds = AMBULO_OFF, .grace = 30.0})
-
 /* -------------------------------------------------------------------- slots */
 
 static ambulo_status make_fan(ambulo__supervisor *batch, const char *id) {

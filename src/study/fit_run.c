@@ -28,8 +28,6 @@
 
 enum { TRIALS = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
 
-AMBULO__FILL(ambulo_fit_options, {.size = size, .case_seconds = AMBULO_OFF, .grace = 30.0})
-
 static int acceptable(const ambulo_fit_options *o) {
   return o->workers >= 0 && o->workers <= MOST_WORKERS &&
          (isnan(o->case_seconds) || o->case_seconds > 0.0) && o->case_megabytes >= 0 &&

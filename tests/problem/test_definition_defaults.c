@@ -203,7 +203,7 @@ static void defaults_fit_an_older_definition(void **state) {
   char *filled = malloc(expected->size);
   memset(filled, 0xa5, expected->size);
   memcpy(filled, expected, offsetof(ambulo_problem_definition, name)); /* the sizes */
-  ambulo_problem_definition_fill((ambulo_problem_definition *)(void *)filled);
+  ambulo_problem_defaults("ambulo_problem_definition", filled, expected->size);
   same_numbers((ambulo_problem_definition *)(void *)filled, expected);
   free(filled);
   clear(&w);

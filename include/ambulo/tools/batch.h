@@ -10,7 +10,6 @@
 #ifndef AMBULO_TOOLS_BATCH_H
 #define AMBULO_TOOLS_BATCH_H
 
-#include "ambulo/status.h"
 #include "ambulo/tools/page.h"
 
 #ifdef __cplusplus
@@ -80,7 +79,7 @@ typedef struct ambulo_batch_options {
   int (*progress)(void *user, const ambulo_batch_progress *progress);
   void *user;
 } ambulo_batch_options;
-AMBULO_DEFAULT(ambulo_batch_options);
+AMBULO_TOOL_DEFAULT(ambulo_batch_options);
 
 /* Solves every case of the shard that is not finished in `directory` yet: that has no record, one
  * of other inputs, or files that are not what was written (computed again, with a warning).

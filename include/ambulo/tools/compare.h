@@ -33,7 +33,7 @@ typedef struct ambulo_compare_options {
   const char *cycles;
   int overwrite;
 } ambulo_compare_options;
-AMBULO_DEFAULT(ambulo_compare_options);
+AMBULO_TOOL_DEFAULT(ambulo_compare_options);
 
 /* One curve over the cycle. Strings belong to the comparison. */
 typedef struct ambulo_curve_score {

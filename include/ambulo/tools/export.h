@@ -39,7 +39,7 @@ typedef struct ambulo_export_options {
    * where the motion has others */
   const ambulo_problem *problem;
 } ambulo_export_options;
-AMBULO_DEFAULT(ambulo_export_options); /* OpenSim */
+AMBULO_TOOL_DEFAULT(ambulo_export_options); /* OpenSim */
 
 /* Writes `output`, whole or not at all. `motion`: a table as of ambulo_inverse_dynamics_motion, or
  * a result folder, whose motion.csv is taken; NULL: the model alone (not with NPZ). `options`,

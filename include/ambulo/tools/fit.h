@@ -10,7 +10,7 @@
 #ifndef AMBULO_TOOLS_FIT_H
 #define AMBULO_TOOLS_FIT_H
 
-#include "ambulo/status.h"
+#include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -65,7 +65,7 @@ typedef struct ambulo_fit_options {
   int (*progress)(void *user, const ambulo_fit_progress *progress);
   void *user;
 } ambulo_fit_options;
-AMBULO_DEFAULT(ambulo_fit_options);
+AMBULO_TOOL_DEFAULT(ambulo_fit_options);
 
 /* Runs the fit in `directory`, which is created, or continued where it holds the same fit: solves
  * that are finished there are not computed again. Writes fit.json and fitted.yaml into it, and

@@ -12,6 +12,7 @@
 #define AMBULO_TOOLS_IMPORT_H
 
 #include "ambulo/model.h"
+#include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -46,7 +47,7 @@ typedef struct ambulo_import_options {
   int repair_inertia; /* 1: an inertia that no body can have is raised to the nearest possible */
   int overwrite;      /* 1: `output` may be a file that is there and not empty */
 } ambulo_import_options;
-AMBULO_DEFAULT(ambulo_import_options);
+AMBULO_TOOL_DEFAULT(ambulo_import_options);
 
 /* 1 if the library reads XML. */
 AMBULO_API int ambulo_import_available(void);

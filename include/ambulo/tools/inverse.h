@@ -10,6 +10,7 @@
 #define AMBULO_TOOLS_INVERSE_H
 
 #include "ambulo/mechanics.h"
+#include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -53,7 +54,7 @@ typedef struct ambulo_inverse_options {
   int strict;           /* 1: what is only doubted, a warning otherwise, is an error (E_SCHEMA) */
   int overwrite;        /* 1: write over an input, and over what ambulo did not write */
 } ambulo_inverse_options;
-AMBULO_DEFAULT(ambulo_inverse_options);
+AMBULO_TOOL_DEFAULT(ambulo_inverse_options);
 
 /* What the forces leave over of the root wrench; axes: forward, up, left. */
 typedef struct ambulo_ground_residual {
@@ -70,7 +71,7 @@ typedef struct ambulo_inverse_outputs {
   ambulo_ground_residual *residual; /* untouched without forces */
   char **text;                      /* the table, where there is no file for it */
 } ambulo_inverse_outputs;
-AMBULO_DEFAULT(ambulo_inverse_outputs); /* NULL */
+AMBULO_TOOL_DEFAULT(ambulo_inverse_outputs); /* NULL */
 
 /* Inverse dynamics of the file `motion`. Coordinates go by name ("NAME", "q.NAME",
  * ".../NAME/value",

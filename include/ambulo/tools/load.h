@@ -7,6 +7,7 @@
 #define AMBULO_TOOLS_LOAD_H
 
 #include "ambulo/parameters.h"
+#include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,7 +27,7 @@ typedef struct ambulo_subject {
   double stature; /* m; AMBULO_OFF: as in the file */
   ambulo_sex sex;
 } ambulo_subject;
-AMBULO_DEFAULT(ambulo_subject); /* all as in the file */
+AMBULO_TOOL_DEFAULT(ambulo_subject); /* all as in the file */
 
 /* Loads a model file, or text that is already in memory (`name` then stands for
  * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.
@@ -67,7 +68,7 @@ typedef struct ambulo_problem_text {
   const char *const *overrides; /* [override_count] "path=value" */
   int override_count;
 } ambulo_problem_text;
-AMBULO_DEFAULT(ambulo_problem_text); /* empty */
+AMBULO_TOOL_DEFAULT(ambulo_problem_text); /* empty */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_problem_load_text(const ambulo_problem_text *text, const ambulo_allocator *allocator,
                          ambulo_diagnostics *diagnostics, ambulo_problem **problem);
@@ -120,9 +121,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(const char *path,
                                                               const ambulo_allocator *allocator,
                                                               ambulo_diagnostics *diagnostics,
                                                               ambulo_file_kind *kind);
-
-/* Frees a text that a function of ambulo/tools allocated; accepts NULL. */
-AMBULO_API void ambulo_text_free(char *text, const ambulo_allocator *allocator);
 
 #ifdef __cplusplus
 }

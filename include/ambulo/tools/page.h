@@ -9,6 +9,7 @@
 #define AMBULO_TOOLS_PAGE_H
 
 #include "ambulo/model.h"
+#include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,7 +31,7 @@ typedef struct ambulo_page_options {
    * for which there still is no room lead to their pictures. */
   double megabytes;
 } ambulo_page_options;
-AMBULO_DEFAULT(ambulo_page_options);
+AMBULO_TOOL_DEFAULT(ambulo_page_options);
 
 /* Writes the page of result folders (ambulo/tools/report.h; the first is the one that is shown,
  * others may be laid beside it); that of a batch folder is ambulo_batch_page's. `options` (NULL:

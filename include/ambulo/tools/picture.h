@@ -11,6 +11,7 @@
 #define AMBULO_TOOLS_PICTURE_H
 
 #include "ambulo/solve.h"
+#include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -39,7 +40,7 @@ typedef struct ambulo_picture_options {
   double millimetres;    /* width on paper, at most 2000; AMBULO_OFF: 1200 px of 1/96 inch */
   double dots_per_inch;  /* of PNG; 300; 10 to 2400 */
 } ambulo_picture_options;
-AMBULO_DEFAULT(ambulo_picture_options);
+AMBULO_TOOL_DEFAULT(ambulo_picture_options);
 
 /* Draws a result of a problem into `output`, whose name ends with .svg, .pdf or .png. `options`
  * (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Curves of people that were asked

@@ -21,7 +21,7 @@ typedef struct ambulo_report_options {
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
                         a walk in gait.svg; NULL: none */
 } ambulo_report_options;
-AMBULO_DEFAULT(ambulo_report_options);
+AMBULO_TOOL_DEFAULT(ambulo_report_options);
 
 /* E_IO now if ambulo_report_write could not write `directory` later (it exists
  * and overwrite is 0; its parent is missing or not writable). `options` and `diagnostics`

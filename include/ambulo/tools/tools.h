@@ -1,5 +1,6 @@
 /* ambulo/tools/tools.h - the engine and every tool around it.
  *
+ *     common.h   what they have in common
  *     load.h     models, problems and solutions from files
  *     report.h   a result as files
  *     compare.h  motions scored against those of people

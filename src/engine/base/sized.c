@@ -24,13 +24,26 @@ int ambulo__sized_item(size_t size, size_t full) {
 }
 
 void *ambulo__sized_items(const ambulo_allocator *allocator, const void *items, int count,
-                          size_t size, size_t full, ambulo__usual_item *usual) {
+                          size_t size, size_t full, const char *name) {
   if (!items || count < 1) return NULL;
   char *own = ambulo__alloc(allocator, (size_t)count, full);
   for (size_t i = 0; own && i < (size_t)count; i++) {
-    const char *given = (const char *)items + i * size;
-    usual(own + i * full, given);
-    memcpy(own + i * full, given, size);
+    char *item = own + i * full;
+    ambulo_defaults(name, item, full);
+    memcpy(item, (const char *)items + i * size, size);
   }
   return own;
+}
+
+ambulo_status ambulo__defaults_of(const ambulo__usual *table, int count, const char *name,
+                                  void *structure, size_t bytes) {
+  const ambulo__usual *row = table;
+  if (!name || !structure) return AMBULO_E_ARGUMENT;
+  while (row < table + count && strcmp(row->name, name) != 0) row++;
+  size_t sizes = row < table + count ? (size_t)row->sizes * sizeof(size_t) : 0;
+  if (row == table + count || bytes < sizes) return AMBULO_E_ARGUMENT;
+  ambulo__sized_fill((char *)structure + sizes, bytes - sizes, (const char *)row->usual + sizes,
+                     row->bytes - sizes);
+  if (sizes) memcpy(structure, &bytes, sizeof bytes);
+  return AMBULO_OK;
 }

@@ -8,13 +8,18 @@
 
 #include "ambulo/status.h"
 
-/* Defines name_fill() of a structure that is usually `...`, an initializer; `size` is its argument.
+/* A structure's defaults: `usual` of `bytes` bytes, of which the first `sizes` members are sizes.
  */
-#define AMBULO__FILL(name, ...)                                                                    \
-  void name##_fill(name *filled, size_t size) {                                                    \
-    const name usual = __VA_ARGS__;                                                                \
-    ambulo__sized_fill(filled, size, &usual, sizeof usual);                                        \
-  }
+typedef struct ambulo__usual {
+  const char *name;
+  const void *usual;
+  size_t bytes;
+  int sizes;
+} ambulo__usual;
+
+/* ambulo_defaults from a table. */
+ambulo_status ambulo__defaults_of(const ambulo__usual *table, int count, const char *name,
+                                  void *structure, size_t bytes);
 
 /* *own becomes the defaults and, over them, what `given` (NULL: nothing) says, a structure that
  * begins with its size. 0: no header had that size. */
@@ -28,10 +33,9 @@ void ambulo__sized_fill(void *filled, size_t size, const void *usual, size_t ful
 /* 1: items of `size` bytes are `full` ones, or older. */
 int ambulo__sized_item(size_t size, size_t full);
 
-/* `count` items of `size` bytes each as items of `full` bytes, to be freed: `usual` sets one to its
- * defaults, given the older one. NULL: no memory, or none at all. */
-typedef void ambulo__usual_item(void *item, const void *given);
+/* `count` items of the structure `name`, `size` bytes each, as items of `full` bytes, to be freed:
+ * what they lack is what ambulo_defaults says. NULL: no memory, or none at all. */
 void *ambulo__sized_items(const ambulo_allocator *allocator, const void *items, int count,
-                          size_t size, size_t full, ambulo__usual_item *usual);
+                          size_t size, size_t full, const char *name);
 
 #endif

@@ -24,19 +24,6 @@
 
 enum { MOST_STEPS = 1000 };
 
-/* phases of people at a comfortable speed, as docs/guide-gait.md has them */
-void ambulo_gait_fill(ambulo_gait *filled) {
-  const ambulo_gait usual = {.size = filled->size,
-                             .contact_size = filled->contact_size,
-                             .steps = 1,
-                             .foot_flat = 0.08,
-                             .heel_off = 0.38,
-                             .toe_off = 0.62,
-                             .other_step_length = AMBULO_OFF,
-                             .other_step_time = AMBULO_OFF};
-  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
-}
-
 static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
   double lengths[] = {gait->step_length, gait->step_width, gait->start};
   for (int i = 0; i < 3; i++) {

@@ -31,11 +31,6 @@ struct ambulo_mechanics {
   double *scratch;
 };
 
-AMBULO__FILL(ambulo_outputs, {.size = size})
-AMBULO__FILL(ambulo_output_weights, {.size = size})
-AMBULO__FILL(ambulo_motion_gradient, {.size = size})
-AMBULO__FILL(ambulo_jacobians, {.size = size})
-
 typedef struct batch {
   int nodes;
   const double *q, *qd, *qdd; /* [nodes][d] */

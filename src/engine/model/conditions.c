@@ -121,8 +121,6 @@ void ambulo__model_tilt(ambulo_model *model, double slope) {
 
 /* --------------------------------------------------------------- in the open */
 
-AMBULO__FILL(ambulo_conditions, {.size = size, .load_link = -1})
-
 static int in_range(const ambulo_model *model, const ambulo_conditions *c) {
   if (!(fabs(c->slope) <= AMBULO__LARGEST_SLOPE)) return 0;
   if (c->load_link < 0) return c->load_link == -1;

@@ -9,36 +9,6 @@
 
 #include <string.h>
 
-static void usual_link(void *item, const void *given) {
-  (void)given;
-  *(ambulo_link *)item = ambulo_link_default();
-}
-
-static void usual_coordinate(void *item, const void *given) {
-  (void)given;
-  *(ambulo_coordinate *)item = ambulo_coordinate_default();
-}
-
-static void usual_point(void *item, const void *given) {
-  (void)given;
-  *(ambulo_point *)item = ambulo_point_default();
-}
-
-static void usual_foot(void *item, const void *given) {
-  (void)given;
-  *(ambulo_foot *)item = ambulo_foot_default();
-}
-
-static void usual_patch(void *item, const void *given) {
-  (void)given;
-  *(ambulo_patch *)item = ambulo_patch_default();
-}
-
-static void usual_capsule(void *item, const void *given) {
-  (void)given;
-  *(ambulo_capsule *)item = ambulo_capsule_default();
-}
-
 ambulo_status ambulo__model_take(const ambulo_model_definition *given,
                                  const ambulo_allocator *allocator, ambulo__taken_model *taken) {
   *taken = (ambulo__taken_model){.definition = ambulo_model_definition_default(),
@@ -52,7 +22,7 @@ ambulo_status ambulo__model_take(const ambulo_model_definition *given,
     if (!ambulo__sized_item(d->item##_size, sizeof(type))) return AMBULO_E_ARGUMENT;               \
     if (d->item##_size < sizeof(type) && d->array && d->item##_count > 0) {                        \
       *longer = ambulo__sized_items(&taken->allocator, d->array, d->item##_count, d->item##_size,  \
-                                    sizeof(type), usual_##item);                                   \
+                                    sizeof(type), #type);                                          \
       failed = failed || !*longer;                                                                 \
       d->array = *longer++;                                                                        \
     }                                                                                              \

@@ -20,47 +20,49 @@ typedef ambulo_problem_definition definition;
 
 /* --------------------------------------------------------------------- defaults */
 
-#define FILL(name)                                                                                 \
-  void ambulo_##name##_fill(ambulo_##name *filled, size_t size) {                                  \
-    ambulo_##name usual;                                                                           \
-    ambulo__members_fill(&ambulo__##name##_members, &usual);                                       \
-    ambulo__sized_fill(filled, size, &usual, sizeof usual);                                        \
-  }
-FILL(contact)
-FILL(end_value)
-FILL(tube)
-FILL(user_row)
-FILL(ground_reaction)
-FILL(clearance)
-FILL(collision)
-FILL(capsule_pair)
-FILL(obstacle)
-FILL(reach)
-FILL(hold)
+static const struct {
+  const char *name;
+  const ambulo__structure *members;
+} parts[] = {{"ambulo_contact", &ambulo__contact_members},
+             {"ambulo_end_value", &ambulo__end_value_members},
+             {"ambulo_tube", &ambulo__tube_members},
+             {"ambulo_user_row", &ambulo__user_row_members},
+             {"ambulo_ground_reaction", &ambulo__ground_reaction_members},
+             {"ambulo_clearance", &ambulo__clearance_members},
+             {"ambulo_collision", &ambulo__collision_members},
+             {"ambulo_capsule_pair", &ambulo__capsule_pair_members},
+             {"ambulo_obstacle", &ambulo__obstacle_members},
+             {"ambulo_reach", &ambulo__reach_members},
+             {"ambulo_hold", &ambulo__hold_members},
+             {"ambulo_device", &ambulo__device_members},
+             {"ambulo_term", &ambulo__term_members}};
 
-AMBULO__FILL(ambulo_motion, {.size = size})
+typedef union part_storage {
+  int kind; /* the first member of devices and terms, which have one */
+  ambulo_contact contact;
+  ambulo_end_value end_value;
+  ambulo_tube tube;
+  ambulo_user_row user_row;
+  ambulo_ground_reaction ground_reaction;
+  ambulo_clearance clearance;
+  ambulo_collision collision;
+  ambulo_capsule_pair capsule_pair;
+  ambulo_obstacle obstacle;
+  ambulo_reach reach;
+  ambulo_hold hold;
+  ambulo_device device;
+  ambulo_term term;
+} part_storage;
 
-void ambulo_device_fill(ambulo_device *filled, ambulo_device_kind kind, size_t size) {
-  ambulo_device usual;
-  ambulo__members_fill(&ambulo__device_members, &usual);
-  usual.kind = kind;
-  ambulo__sized_fill(filled, size, &usual, sizeof usual);
-}
-
-void ambulo_term_fill(ambulo_term *filled, ambulo_term_kind kind, size_t size) {
-  const ambulo__term_info *info = ambulo__term_info_of(kind);
-  ambulo_term usual;
-  ambulo__members_fill(&ambulo__term_members, &usual);
-  usual.kind = kind;
-  if (info && info->smoothing > 0.0) usual.smoothing = info->smoothing;
-  if (info && info->power > 0.0) usual.power = info->power;
-  ambulo__sized_fill(filled, size, &usual, sizeof usual);
-}
-
-void ambulo_extension_fill(ambulo_extension *filled) {
-  const ambulo_extension usual = {
-      .size = filled->size, .term_size = filled->term_size, .user_row_size = filled->user_row_size};
-  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
+/* defaults of a part of which `item` is the beginning, so that it has its kind */
+static void fill_part(const ambulo__structure *s, part_storage *usual, const void *item) {
+  ambulo__members_fill(s, usual);
+  if (s != &ambulo__device_members && s != &ambulo__term_members) return;
+  memcpy(&usual->kind, item, sizeof usual->kind);
+  if (s == &ambulo__device_members) return;
+  const ambulo__term_info *info = ambulo__term_info_of(usual->term.kind);
+  if (info && info->smoothing > 0.0) usual->term.smoothing = info->smoothing;
+  if (info && info->power > 0.0) usual->term.power = info->power;
 }
 
 /* ------------------------------------------------------------- older definitions */
@@ -105,7 +107,7 @@ static int runs_of(const definition *theirs, run runs[MOST_RUNS]) {
   return known ? count : 0;
 }
 
-void ambulo_problem_definition_fill(ambulo_problem_definition *filled) {
+static void fill_definition(definition *filled) {
   definition usual;
   run runs[MOST_RUNS];
   ambulo__members_fill(&ambulo__definition_members, &usual);
@@ -116,14 +118,22 @@ void ambulo_problem_definition_fill(ambulo_problem_definition *filled) {
     memcpy((char *)filled + runs[i].theirs, (const char *)&usual + runs[i].ours, runs[i].length);
 }
 
-/* defaults of an item of which `given` is the beginning */
-static void fill_item(const ambulo__structure *s, void *item, const void *given) {
-  int kind; /* the first member */
-  memcpy(&kind, given, sizeof kind);
-  if (s == &ambulo__term_members)
-    *(ambulo_term *)item = ambulo_term_default((ambulo_term_kind)kind);
-  else
-    ambulo__members_fill(s, item);
+ambulo_status ambulo_problem_defaults(const char *name, void *structure, size_t bytes) {
+  if (!name || !structure || bytes < sizeof(int)) return AMBULO_E_ARGUMENT;
+  if (strcmp(name, "ambulo_problem_definition") == 0) {
+    if (bytes < offsetof(definition, name)) return AMBULO_E_ARGUMENT;
+    memcpy(structure, &bytes, sizeof bytes);
+    fill_definition(structure);
+    return AMBULO_OK;
+  }
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+    if (strcmp(name, parts[i].name) != 0) continue;
+    part_storage usual;
+    fill_part(parts[i].members, &usual, structure);
+    ambulo__sized_fill(structure, bytes, &usual, parts[i].members->size);
+    return AMBULO_OK;
+  }
+  return AMBULO_E_ARGUMENT;
 }
 
 /* *array of `count` items; E_ARGUMENT: no header had their size */
@@ -135,7 +145,9 @@ static ambulo_status take_items(ambulo__taken_definition *taken, const ambulo__s
   if (!longer) return AMBULO_E_MEMORY;
   for (size_t i = 0; i < (size_t)count; i++) {
     const char *given = (const char *)*array + i * size;
-    fill_item(s, longer + i * s->size, given);
+    part_storage usual;
+    fill_part(s, &usual, given);
+    memcpy(longer + i * s->size, &usual, s->size);
     memcpy(longer + i * s->size, given, size);
   }
   *array = taken->longer[taken->count++] = longer;

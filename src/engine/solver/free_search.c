@@ -59,11 +59,6 @@ static ambulo_status check_item(const ambulo__outer *run, int i) {
   return AMBULO_OK;
 }
 
-static void usual_parameter(void *item, const void *given) {
-  (void)given;
-  *(ambulo_parameter *)item = ambulo_parameter_default();
-}
-
 /* what the caller gave, of whatever age; items of an older header as *older, to be freed */
 static ambulo_status take(ambulo__outer *run, const ambulo_parameters *given,
                           ambulo_parameter **older) {
@@ -77,7 +72,7 @@ static ambulo_status take(ambulo__outer *run, const ambulo_parameters *given,
   run->start = own->start;
   if (own->parameter_size == full || own->count < 1 || !own->items) return AMBULO_OK;
   *older = ambulo__sized_items(&run->allocator, own->items, own->count, own->parameter_size, full,
-                               usual_parameter);
+                               "ambulo_parameter");
   own->items = *older;
   return *older ? AMBULO_OK : AMBULO_E_MEMORY;
 }

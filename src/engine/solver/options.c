@@ -1,4 +1,4 @@
-/* solver/options.c - the defaults of a solve, and the check of what a caller hands in. */
+/* solver/options.c - the options of a problem, and the check of what a caller hands in. */
 #include "solver/options.h"
 #include "base/sized.h"
 #include "problem/nlp.h"
@@ -6,27 +6,6 @@
 #include <math.h>
 
 static const double least_tolerance = 1e-14, most_tolerance = 1.0; /* as in problem files */
-
-enum { DEFAULT_EVALUATIONS = 20000, DEFAULT_ITERATIONS = 150 };
-
-void ambulo_options_fill(ambulo_options *filled, size_t size) {
-  const ambulo_options usual = {
-      .size = size,
-      .algorithm = AMBULO_AUTO,
-      .presolve = 1,
-      .maximum_evaluations = DEFAULT_EVALUATIONS,
-      .maximum_iterations = DEFAULT_ITERATIONS,
-      .time_limit = AMBULO_OFF,
-      .maximum_memory = AMBULO_OFF,
-      .feasibility_tolerance = 1e-6,
-      .optimality_tolerance = 1e-3,
-      .continuation = 1,
-      .starts = 1,
-      .dense_samples = 10,
-      .equalities = AMBULO_EQUALITIES_HELD,
-  };
-  ambulo__sized_fill(filled, size, &usual, sizeof usual);
-}
 
 void ambulo_problem_options_fill(const ambulo_problem *problem, ambulo_options *filled,
                                  size_t size) {

@@ -10,9 +10,6 @@
 
 #include "definitions/model_reader.h"
 #include "ambulo/tools/load.h"
-#include "base/sized.h"
-
-AMBULO__FILL(ambulo_subject, {.size = size, .mass = AMBULO_OFF, .stature = AMBULO_OFF})
 
 static const double LEAST_MASS = 0.5, LARGEST_MASS = 1000;    /* kg */
 static const double LEAST_STATURE = 0.2, LARGEST_STATURE = 3; /* m */

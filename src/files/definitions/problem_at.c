@@ -11,18 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_SOLVES = 60, NUMBER = 40 };
-
-AMBULO__FILL(ambulo_parameter, {.lower = AMBULO_OFF, .upper = AMBULO_OFF})
-
-AMBULO__FILL(ambulo_problem_text, {.size = size})
-
-void ambulo_parameters_fill(ambulo_parameters *filled) {
-  const ambulo_parameters usual = {.size = filled->size,
-                                   .parameter_size = filled->parameter_size,
-                                   .maximum_solves = MOST_SOLVES};
-  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
-}
+enum { NUMBER = 40 };
 
 /* The items are the library's own, of its size: the caller reads the beginning of each. */
 void ambulo_problem_parameters_fill(const ambulo_problem *problem, ambulo_parameters *filled) {

@@ -132,11 +132,16 @@ def usual_struct(name, *kind):
             struct.size = ffi.sizeof(name)
         elif field.endswith("_size"):
             setattr(struct, field, ffi.sizeof("ambulo_" + field[:-len("_size")]))
-    fill = getattr(lib, name + "_fill", None)
-    if fill:
-        arguments = len(ffi.typeof(fill).args)
-        fill(struct, *kind, *(() if arguments == 1 else (ffi.sizeof(name),)))
+    if kind:
+        struct.kind = kind[0]
+    fill_usual(name, struct)
     return struct
+
+
+def fill_usual(name, struct):
+    """Sets the library's defaults; False: it has none for this structure."""
+    return any(fill(name.encode(), struct, ffi.sizeof(name)) == lib.AMBULO_OK for fill in
+               (lib.ambulo_defaults, lib.ambulo_problem_defaults, lib.ambulo_tool_defaults))
 
 
 # -------------------------------------------------------------- from the library
