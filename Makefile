@@ -186,7 +186,7 @@ $(OUT)/obj/src/engine/linear/band_kernels_%.o: src/engine/linear/band_kernels_%.
 
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
-	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
+	$(call compile,$(if $(filter tests/%,$<),$(TEST_MODE)) $(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
 
 # the page of `ambulo report`, as an array of bytes (src/show/page.h); the zero behind it ends a text
 $(OUT)/obj/viewer.c: src/show/viewer.html Makefile
@@ -209,15 +209,20 @@ TRACER := $(if $(filter way,$(VARIANT)),$(OUT)/obj/tests/support/way.o)
 $(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a $(TRACER)
 	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(TRACER) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
 
+# Tests of a release are compiled at -O1 and linked without what debuggers read: the library is what is
+# fast, and four hundred programs are compiled and linked in half of the time.
+TEST_MODE := $(if $(filter release,$(VARIANT)),-O1)
+TEST_LINK := $(if $(filter release,$(VARIANT)),-Wl,-S)
+
 # the parts of the program are linked into its tests, its main() is not
 CLI_PARTS := $(filter-out %/main.o,$(CLI_OBJECTS))
 $(OUT)/tests/cli/test_%: $(OUT)/obj/tests/cli/test_%.o $(CLI_PARTS) $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(call quiet,LD $@)$(CC) $(MODE) $< $(CLI_PARTS) $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(CLI_PARTS) $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
 $(OUT)/tests/%: $(OUT)/obj/tests/%.o $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(call quiet,LD $@)$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
 $(OUT)/bench/%: $(OUT)/obj/bench/%.o $(OUT)/libambulo.a
 	@mkdir -p $(@D)

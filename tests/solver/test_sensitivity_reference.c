@@ -149,7 +149,7 @@ static int compare(const char *problem, const line *want, const lines *all) {
 }
 
 static void open_problem(const char *name, lines *all) {
-  char path[120];
+  char path[256];
   ambulo_problem *problem = NULL;
   (void)snprintf(path, sizeof path, "models/%s.yaml", name);
   assert_int_equal(ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem), AMBULO_OK);
