@@ -1,12 +1,11 @@
 /* cli/args.c - command lines: --name value, --name=value, -o value, -ovalue, -- ends options. */
-#include "cli/format.h"
-#include "cli/args.h"
-
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/command.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 
@@ -53,31 +52,55 @@ const char *ambulo__cli_nearest(const char *word, const char *const *words, int 
 
 /* ------------------------------------------------------------------ queries */
 
-static int same(const ambulo__cli_input *input, int given, const char *name) {
-  return strcmp(input->command->options[input->options[given]].name, name) == 0;
+const char *const *ambulo__cli_values(const ambulo__cli_input *input, const char *name,
+                                      int *count) {
+  int first = 0;
+  *count = 0;
+  for (int i = 0; i < input->given_count; i++) {
+    if (strcmp(input->command->options[input->options[i]].name, name) != 0) continue;
+    if ((*count)++ == 0) first = i;
+  }
+  return input->values + first;
 }
 
 const char *ambulo__cli_value(const ambulo__cli_input *input, const char *name) {
-  const char *value = NULL;
-  for (int i = 0; i < input->given_count; i++) {
-    if (same(input, i, name)) value = input->values[i];
-  }
-  return value;
+  int count;
+  const char *const *values = ambulo__cli_values(input, name, &count);
+  return count ? values[count - 1] : NULL;
 }
 
 int ambulo__cli_flag(const ambulo__cli_input *input, const char *name) {
-  for (int i = 0; i < input->given_count; i++) {
-    if (same(input, i, name)) return 1;
-  }
-  return 0;
+  int count;
+  (void)ambulo__cli_values(input, name, &count);
+  return count > 0;
 }
 
-int ambulo__cli_values(const ambulo__cli_input *input, const char *name, const char **values) {
-  int count = 0;
-  for (int i = 0; i < input->given_count; i++) {
-    if (same(input, i, name)) values[count++] = input->values[i];
+const char *ambulo__cli_next_choice(const char **text, int *length) {
+  while (**text) {
+    const char *word = *text + strspn(*text, "[|]");
+    size_t letters = strcspn(word, "|]"), small = 0;
+    while (islower((unsigned char)word[small])) small++;
+    *text = word + letters;
+    *length = (int)letters;
+    if (letters > 0 && small == letters) return word;
   }
-  return count;
+  return NULL;
+}
+
+/* place of a word among the choices of a value; -1: it is none of them */
+static int find_choice(const char *choices, const char *word) {
+  int length, index = 0;
+  for (const char *c; (c = ambulo__cli_next_choice(&choices, &length)); index++)
+    if (strlen(word) == (size_t)length && strncmp(c, word, strlen(word)) == 0) return index;
+  return -1;
+}
+
+int ambulo__cli_choice(const ambulo__cli_input *input, const char *name, int fallback) {
+  const ambulo__cli_command *c = input->command;
+  const char *word = ambulo__cli_value(input, name);
+  for (int i = 0; word && i < c->option_count; i++)
+    if (strcmp(c->options[i].name, name) == 0) return find_choice(c->options[i].value, word);
+  return fallback;
 }
 
 int ambulo__cli_number(const ambulo__cli_input *input, const char *name, double min, double max,
@@ -171,6 +194,42 @@ static int find_option(const parser *p, const char **attached) {
   return -1;
 }
 
+/* "free|fixed", and not "zero|FILE" */
+static int takes_choices(const char *value) {
+  for (const char *c = value; *c; c++)
+    if (!islower((unsigned char)*c) && *c != '|') return 0;
+  return strchr(value, '|') != NULL;
+}
+
+static int wrong_choice(const parser *p, const ambulo__cli_option *option, const char *value) {
+  char list[128] = "";
+  int length, count = 0, k = 0;
+  const char *rest = option->value;
+  while (ambulo__cli_next_choice(&rest, &length)) count++;
+  rest = option->value;
+  for (const char *c; (c = ambulo__cli_next_choice(&rest, &length)); k++) {
+    size_t used = strlen(list);
+    ambulo__cli_format(list + used, sizeof list - used, "%s%.*s",
+                       k == 0          ? ""
+                       : k + 1 < count ? ", "
+                                       : " or ",
+                       length, c);
+  }
+  return ambulo__cli_usage_error(p->command->name, NULL, "--%s is '%s'; expected %s", option->name,
+                                 value, list);
+}
+
+/* behind those of the same option, so that its values are one piece */
+static void give(parser *p, int option, const char *value) {
+  int at = p->given_count++;
+  for (; at > 0 && p->options[at - 1] > option; at--) {
+    p->options[at] = p->options[at - 1];
+    p->values[at] = p->values[at - 1];
+  }
+  p->options[at] = option;
+  p->values[at] = value;
+}
+
 /* 0, or the exit code of a usage error */
 static int parse_option(parser *p) {
   const char *attached;
@@ -190,8 +249,9 @@ static int parse_option(parser *p) {
   if (value && !value[0])
     return ambulo__cli_usage_error(p->command->name, NULL, "--%s is empty; expected %s",
                                    option->name, option->value);
-  p->options[p->given_count] = index;
-  p->values[p->given_count++] = value;
+  if (value && takes_choices(option->value) && find_choice(option->value, value) < 0)
+    return wrong_choice(p, option, value);
+  give(p, index, value);
   return 0;
 }
 

@@ -1,15 +1,78 @@
 /* cli/body.c - see body.h. */
-#include "cli/format.h"
 #include "cli/body.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 
+#include "ambulo/tools/load.h"
 #include "cli/output.h"
 
 enum { SUBJECT_KEYS = 3, OVERRIDE = 64 };
+
+/* ----------------------------------------------------------------------- files */
+
+ambulo_status ambulo__cli_load_problem(const ambulo__cli_input *input, const char *file,
+                                       ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+  int count;
+  const char *const *overrides = ambulo__cli_values(input, "set", &count);
+  return ambulo_problem_load(file, overrides, count, NULL, diagnostics, problem);
+}
+
+/* what options say about the subject; of a problem file as values of it */
+typedef struct subject_text {
+  ambulo_subject subject;
+  char overrides[SUBJECT_KEYS][OVERRIDE];
+  int count;
+} subject_text;
+
+static ambulo_status load_file(const ambulo__cli_input *input, const char *file,
+                               const subject_text *subject, ambulo_diagnostics *diagnostics,
+                               ambulo__cli_body *body) {
+  int count;
+  const char *const *sets = ambulo__cli_values(input, "set", &count);
+  ambulo_file_kind kind = AMBULO_FILE_UNKNOWN;
+  ambulo_status status = ambulo_file_kind_of(file, NULL, diagnostics, &kind);
+  if (!status && kind == AMBULO_FILE_MODEL)
+    status = ambulo_model_load_with(file, sets, count, subject ? &subject->subject : NULL, NULL,
+                                    diagnostics, &body->loaded);
+  if (status || kind == AMBULO_FILE_MODEL) return status;
+  const char **overrides =
+      calloc((size_t)count + SUBJECT_KEYS, sizeof *overrides); /* after those of --set */
+  if (!overrides) return AMBULO_E_MEMORY;
+  for (int i = 0; i < count; i++) overrides[i] = sets[i];
+  for (int i = 0; subject && i < subject->count; i++) overrides[count++] = subject->overrides[i];
+  status = ambulo_problem_load(file, overrides, count, NULL, diagnostics, &body->problem);
+  free(overrides);
+  return status;
+}
+
+static ambulo_status load(const ambulo__cli_input *input, const char *file,
+                          const subject_text *subject, ambulo_diagnostics *diagnostics,
+                          ambulo__cli_body *body) {
+  ambulo_status status = load_file(input, file, subject, diagnostics, body);
+  if (status) return status;
+  body->model = body->problem ? ambulo_problem_model(body->problem) : body->loaded;
+  if (body->problem) body->ground_height = ambulo_problem_ground_height(body->problem);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__cli_load(const ambulo__cli_input *input, const char *file,
+                               ambulo_diagnostics *diagnostics, ambulo__cli_body *body) {
+  return load(input, file, NULL, diagnostics, body);
+}
+
+int ambulo__cli_is_batch(const char *directory) {
+  char path[4200];
+  struct stat entry;
+  ambulo__cli_format(path, sizeof path, "%.4096s/batch.json", directory);
+  return stat(path, &entry) == 0;
+}
+
+/* --------------------------------------------------------------------- options */
 
 /* "LINK:KG:X,Y,Z" */
 typedef struct load_text {
@@ -45,46 +108,19 @@ static int read_load(const ambulo__cli_input *input, load_text *load) {
   return 0;
 }
 
-/* what the options say about the subject, and as values of a problem file */
-typedef struct subject_text {
-  ambulo_subject subject;
-  char overrides[SUBJECT_KEYS][OVERRIDE];
-  int count;
-} subject_text;
-
 static int read_subject(const ambulo__cli_input *input, subject_text *s) {
-  const char *sex = ambulo__cli_value(input, "sex");
+  static const char *const names[SUBJECT_KEYS] = {"mass", "stature", "sex"};
+  int sex = ambulo__cli_choice(input, "sex", -1);
   if (!ambulo__cli_number(input, "mass", 0.5, 1000.0, &s->subject.mass) ||
       !ambulo__cli_number(input, "stature", 0.2, 3.0, &s->subject.stature))
     return 0;
-  int female = sex && strcmp(sex, "female") == 0;
-  if (sex && !female && strcmp(sex, "male") != 0) {
-    ambulo__cli_usage_error(input->command->name, NULL, "--sex is '%s'; expected female or male",
-                            sex);
-    return 0;
-  }
-  if (sex) s->subject.sex = female ? AMBULO_FEMALE : AMBULO_MALE;
-  static const char *const names[SUBJECT_KEYS] = {"mass", "stature", "sex"};
+  if (sex >= 0) s->subject.sex = sex == 0 ? AMBULO_FEMALE : AMBULO_MALE;
   for (int i = 0; i < SUBJECT_KEYS; i++) {
     const char *value = ambulo__cli_value(input, names[i]);
     if (!value) continue;
     ambulo__cli_format(s->overrides[s->count++], OVERRIDE, "subject.%s=%s", names[i], value);
   }
   return 1;
-}
-
-static ambulo_status load(const ambulo__cli_input *input, const char *file,
-                          const subject_text *subject, ambulo_diagnostics *diagnostics,
-                          ambulo__cli_body *body) {
-  const char *overrides[SUBJECT_KEYS];
-  for (int i = 0; i < subject->count; i++) overrides[i] = subject->overrides[i];
-  ambulo__cli_changes changes = {subject->subject, overrides, subject->count};
-  ambulo_status status =
-      ambulo__cli_load(input, file, &changes, diagnostics, &body->loaded, &body->problem);
-  if (status) return status;
-  body->model = body->problem ? ambulo_problem_model(body->problem) : body->loaded;
-  if (body->problem) body->ground_height = ambulo_problem_ground_height(body->problem);
-  return AMBULO_OK;
 }
 
 /* slope and load on top of what the file says */
@@ -122,4 +158,32 @@ void ambulo__cli_body_free(ambulo__cli_body *body) {
   ambulo_model_free(body->adapted);
   ambulo_problem_free(body->problem);
   ambulo_model_free(body->loaded);
+}
+
+/* ---------------------------------------------------------------------- forces */
+
+static int is_xml(const char *file) {
+  const char *dot = strrchr(file, '.');
+  return dot && strcasecmp(dot, ".xml") == 0;
+}
+
+ambulo_status ambulo__cli_forces_read(const ambulo__cli_input *input, const ambulo_model *model,
+                                      ambulo_diagnostics *diagnostics, ambulo__cli_forces *forces,
+                                      ambulo_inverse_options *options) {
+  const char *file = ambulo__cli_value(input, "grf");
+  options->without_forces = file && strcmp(file, "none") == 0;
+  options->forces = options->without_forces ? NULL : file;
+  options->force_columns = ambulo__cli_value(input, "force-columns");
+  if (!options->forces || !is_xml(file)) return AMBULO_OK;
+  ambulo_status status = ambulo_import_external_loads(file, model, NULL, diagnostics,
+                                                      &forces->table, &forces->columns);
+  if (status) return status;
+  options->forces = forces->table;
+  if (!options->force_columns) options->force_columns = forces->columns;
+  return AMBULO_OK;
+}
+
+void ambulo__cli_forces_free(ambulo__cli_forces *forces) {
+  ambulo_text_free(forces->table, NULL);
+  ambulo_text_free(forces->columns, NULL);
 }

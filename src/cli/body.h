@@ -1,18 +1,31 @@
-/* cli/body.h - the body of a motion: a model file or a problem's, under the conditions of options.
- */
+/* cli/body.h - files of the command line that may be a model or a problem, as --set changes them;
+ * the body of a motion under the conditions of options; forces on its feet. */
 #ifndef AMBULO_CLI_BODY_H
 #define AMBULO_CLI_BODY_H
 
-#include "ambulo/ambulo.h"
-#include "cli/load.h"
+#include "ambulo/tools/tools.h"
+#include "cli/command.h"
 
-/* Options that ambulo__cli_body_load reads, for a command's table. */
+/* Options that the functions below read, for a command's table. */
+#define AMBULO__CLI_SET_OPTION                                                                     \
+  { "set", 0, "path=value", "replace a value of the model or problem file; may be repeated" }
 #define AMBULO__CLI_BODY_OPTIONS                                                                   \
   AMBULO__CLI_SET_OPTION, {"mass", 0, "KG", "body mass of the subject"},                           \
       {"stature", 0, "M", "stature of the subject"},                                               \
       {"sex", 0, "female|male", "sex of the subject"},                                             \
       {"slope", 0, "DEG", "the ground rises so much along forward"}, {                             \
     "load", 0, "LINK:KG:X,Y,Z", "a mass fixed on a link, at a place in its frame (m)"              \
+  }
+
+#define AMBULO__CLI_FORCE_OPTIONS                                                                  \
+  {"grf", 0, "FILE|none",                                                                          \
+   "forces on the feet (CSV, STO or MOT, or OpenSim's external loads,\n"                           \
+   "XML, which name the table and its columns), taken off the torques\n"                           \
+   "(default: the columns grf.* of the motion, if it has some)"},                                  \
+  {                                                                                                \
+    "force-columns", 0, "MAP",                                                                     \
+        "columns of forces of each foot, when their names do not tell:\n"                          \
+        "left=ground_force_1,right=ground_force_2+ground_force_3 or right=none"                    \
   }
 
 typedef struct ambulo__cli_body {
@@ -22,10 +35,30 @@ typedef struct ambulo__cli_body {
   double ground_height;      /* m */
 } ambulo__cli_body;
 
-/* Loads `file`. Returns 0, or an exit code after a usage error; *status tells how loading went. */
+/* A problem file, with what --set changes. */
+ambulo_status ambulo__cli_load_problem(const ambulo__cli_input *input, const char *file,
+                                       ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+/* A model or a problem file, by what it is. */
+ambulo_status ambulo__cli_load(const ambulo__cli_input *input, const char *file,
+                               ambulo_diagnostics *diagnostics, ambulo__cli_body *body);
+/* Whether a batch has filled the folder. */
+int ambulo__cli_is_batch(const char *directory);
+/* A model or a problem file under the options of the body. Returns 0, or an exit code after a usage
+ * error; *status tells how loading went. */
 int ambulo__cli_body_load(const ambulo__cli_input *input, const char *file,
                           ambulo_diagnostics *diagnostics, ambulo__cli_body *body,
                           ambulo_status *status);
 void ambulo__cli_body_free(ambulo__cli_body *body); /* accepts a zero-filled one */
+
+typedef struct ambulo__cli_forces {
+  char *table, *columns; /* what external loads said; NULL */
+} ambulo__cli_forces;
+
+/* Sets forces, without_forces and force_columns of the options; they live as long as *forces and
+ * the input. */
+ambulo_status ambulo__cli_forces_read(const ambulo__cli_input *input, const ambulo_model *model,
+                                      ambulo_diagnostics *diagnostics, ambulo__cli_forces *forces,
+                                      ambulo_inverse_options *options);
+void ambulo__cli_forces_free(ambulo__cli_forces *forces); /* accepts a zero-filled one */
 
 #endif

@@ -1,22 +1,22 @@
-/* cli/cmd_batch.c - ambulo batch: many cases, on all processors, resumable. */
+/* cli/cmd_batch.c - ambulo batch: many cases, on all processors, resumable; ambulo collect: their
+ * table. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/batch_dry_run.h"
-#include "cli/commands.h"
-#include "cli/format.h"
-#include "cli/front_words.h"
+#include "cli/body.h"
 #include "cli/output.h"
-#include "cli/own_program.h"
-#include "cli/stop_signals.h"
+#include "cli/program.h"
+
+/* --------------------------------------------------------------------- progress */
 
 enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };
 
 typedef struct view {
-  int terminal, quiet, told;
+  int terminal, quiet, warned;
   double line_at; /* s: when the last plain line was printed */
   int line_done;
 } view;
@@ -46,8 +46,8 @@ static int show(void *user, const ambulo_batch_progress *p) {
     v->line_done = p->done;
   }
   int seen = ambulo__cli_stops();
-  if (seen == 1 && v->told == 0 && !v->quiet) {
-    v->told = 1;
+  if (seen == 1 && !v->warned && !v->quiet) {
+    v->warned = 1;
     fprintf(stderr, "%sfinishing %d running cases; once more to stop now\n",
             v->terminal ? "\r\033[K" : "", p->running);
   }
@@ -82,6 +82,17 @@ static int read_options(const ambulo__cli_input *input, ambulo_batch_options *o)
          ambulo__cli_number(input, "grace", 0.0, 1e9, &o->grace) && read_shard(input, o);
 }
 
+/* nothing where the folder has no front */
+static void print_front(const ambulo_front_census *f) {
+  if (f->terms == 0) return;
+  printf("front of %d points", f->points);
+  if (f->points > 1 && f->mean_gap > 0.0)
+    printf(", largest gap %.2f mean gaps", f->largest_gap / f->mean_gap);
+  if (f->refused > 0) printf(", %d gap%s refused to close", f->refused, f->refused > 1 ? "s" : "");
+  if (f->left_out > 0) printf(", %d left out that another beats", f->left_out);
+  printf("\n");
+}
+
 /* the table of a front, and what became of it */
 static int collect_front(const char *directory, int quiet) {
   ambulo_batch_census census;
@@ -90,7 +101,7 @@ static int collect_front(const char *directory, int quiet) {
   ambulo_status status = ambulo_batch_collect(directory, NULL, diagnostics, &census);
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
   ambulo_diagnostics_free(diagnostics);
-  if (!code && !quiet) ambulo__cli_print_front(&census.front);
+  if (!code && !quiet) print_front(&census.front);
   return code;
 }
 
@@ -100,7 +111,7 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
   view v = {isatty(STDERR_FILENO), ambulo__cli_flag(input, "quiet"), 0, 0.0, 0};
   o->progress = show;
   o->user = &v;
-  ambulo__cli_catch_stops();
+  ambulo__cli_catch_stops(0);
   ambulo_batch_progress end;
   memset(&end, 0, sizeof end);
   ambulo_status status = ambulo_batch_run(sweep, directory, o, NULL, diagnostics, &end);
@@ -115,6 +126,48 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
   if (code) return code;
   if (ambulo__cli_stops() > 0 && end.done < end.cases) return 128 + ambulo__cli_stop_signal();
   return end.failed > 0 || end.done < end.cases ? 1 : 0;
+}
+
+/* ----------------------------------------------------------------------- folders */
+
+static void print_cases(const ambulo_sweep *sweep) {
+  ambulo_case one, before;
+  for (int k = 0; k < ambulo_sweep_case_count(sweep); k++) {
+    if (ambulo_sweep_case(sweep, k, &one)) continue;
+    printf("%s  %s ", one.id, one.name);
+    for (int i = 0; i < one.override_count; i++) printf(" %s", one.overrides[i]);
+    if (one.previous >= 0 && !ambulo_sweep_case(sweep, one.previous, &before))
+      printf("  continues %s", before.id);
+    printf("\n");
+  }
+}
+
+/* the case list, and how long it takes by the finished cases in `directory` (may be NULL) */
+static int dry_run(const ambulo_sweep *sweep, const char *directory, int workers) {
+  ambulo_batch_census census;
+  memset(&census, 0, sizeof census);
+  int cases = ambulo_sweep_case_count(sweep), code = 0;
+  print_cases(sweep);
+  if (ambulo_sweep_front_points(sweep) > cases) {
+    printf("and at least %d between them, whose weights follow from these\n",
+           ambulo_sweep_front_points(sweep) - cases);
+    cases = ambulo_sweep_front_points(sweep);
+  }
+  if (directory && ambulo__cli_is_batch(directory)) {
+    ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+    ambulo_status status = ambulo_batch_status(directory, NULL, diagnostics, &census);
+    code = ambulo__cli_diagnostics(diagnostics, status, directory);
+    ambulo_diagnostics_free(diagnostics);
+  }
+  if (code) return code;
+  int left = cases > census.done ? cases - census.done : 0,
+      processes = ambulo_batch_workers(workers, 0);
+  printf("%d cases, %d to do", cases, left);
+  if (census.done > 0)
+    printf("; about %.0f s with %d processes", census.seconds / census.done * left / processes,
+           processes);
+  printf("\n");
+  return 0;
 }
 
 static void print_damage(void *user, const ambulo_batch_damage *damage) {
@@ -166,8 +219,7 @@ static int run(const ambulo__cli_input *input) {
                                    "--shard with a front; expected one run with -j N");
   } else {
     if (dry) (void)ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
-    code = dry ? ambulo__cli_dry_run(sweep, directory, o.workers)
-               : run_sweep(input, sweep, &o, diagnostics);
+    code = dry ? dry_run(sweep, directory, o.workers) : run_sweep(input, sweep, &o, diagnostics);
   }
   ambulo_sweep_free(sweep);
   ambulo_diagnostics_free(diagnostics);
@@ -182,7 +234,7 @@ static const ambulo__cli_option options[] = {
     {"case-memory", 0, "MB", "address space of a case"},
     {"grace", 0, "S", "what running cases get after Ctrl-C (default: 30)"},
     {"force", 0, NULL, "inputs changed: compute the cases that differ, keep the others"},
-    {"dry-run", 0, NULL, "print the case list, and the time and disk it will take"},
+    {"dry-run", 0, NULL, "print the case list, solve nothing"},
     {"status", 0, "DIR", "print the state of a batch folder, running or not, by its records"},
     {"verify", 0, "DIR",
      "the same by reading every file and comparing it with its checksum; names\n"
@@ -209,4 +261,69 @@ const ambulo__cli_command ambulo__cli_batch = {
     .files = 1,
     .words = "ambulo models --names sweep",
     .run = run,
+};
+
+/* ----------------------------------------------------------------------- collect */
+
+/* returns the exit code */
+static int print_census(const char *directory, const ambulo_batch_census *c) {
+  printf("%d cases: %d done (%d without a valid solution), %d missing, %d stale, %d corrupt\n",
+         c->cases, c->done, c->failed, c->missing, c->stale, c->corrupt);
+  int incomplete = c->missing + c->stale + c->corrupt;
+  if (c->holder[0]) {
+    printf("a batch runs in it: %s\n", c->holder);
+  } else if (incomplete) {
+    printf("run 'ambulo batch' with -o %s again to complete it\n", directory);
+  }
+  if (c->corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
+  return incomplete ? 1 : 0;
+}
+
+/* a folder, but none that a batch has filled: most likely a result folder */
+static int is_no_batch(const char *directory) {
+  struct stat info;
+  return stat(directory, &info) == 0 && S_ISDIR(info.st_mode) && !ambulo__cli_is_batch(directory);
+}
+
+static int collect(const ambulo__cli_input *input) {
+  const char *directory = input->arguments[0];
+  if (is_no_batch(directory)) {
+    ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' fills one",
+                      "%s is not a batch folder (it has no batch.json)", directory);
+    return ambulo_status_exit_code(AMBULO_E_IO);
+  }
+  ambulo_batch_census census;
+  memset(&census, 0, sizeof census);
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_batch_collect(directory, NULL, diagnostics, &census);
+  int code = 0;
+  if (!status) {
+    printf("written to %s/results.csv and %s/results.jsonl\n", directory, directory);
+    print_front(&census.front);
+    code = print_census(directory, &census);
+  }
+  int failed = ambulo__cli_diagnostics(diagnostics, status, directory);
+  ambulo_diagnostics_free(diagnostics);
+  return failed ? failed : code;
+}
+
+static const char *const former[] = {
+    "plot", "'ambulo report DIR' draws any columns of the table, and fronts; so does Python",
+    "where", "a table is always whole; the page of 'ambulo report DIR' filters it", NULL};
+
+const ambulo__cli_command ambulo__cli_collect = {
+    .name = "collect",
+    .arguments = "DIR",
+    .summary = "write the table of a batch",
+    .description =
+        "Writes DIR/results.csv and DIR/results.jsonl: one line per case, sorted by id, with the\n"
+        "axes and the outputs the sweep file asks for. The same results give the same bytes,\n"
+        "however they were computed. Every file is compared with its checksum. Exit code 0: every\n"
+        "case is finished; 1: some are missing, or stale (of other inputs); 4: some are corrupt\n"
+        "(damaged since, or cannot be read). The table is written all the same and says which.",
+    .example = "ambulo collect walks",
+    .former = former,
+    .minimum = 1,
+    .maximum = 1,
+    .run = collect,
 };

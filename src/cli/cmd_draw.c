@@ -7,8 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/commands.h"
-#include "cli/format.h"
+#include "cli/body.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 
@@ -26,11 +25,8 @@ static const char *const of_motion[] = {"set",     "strip",     "curves", "power
                                         "percent", "reference", "bare",   "width"};
 
 static const char *needs_problem(const ambulo__cli_input *input) {
-  for (size_t i = 0; i < sizeof of_motion / sizeof *of_motion; i++) {
-    const char *name = of_motion[i];
-    for (int k = 0; k < input->given_count; k++)
-      if (strcmp(input->command->options[input->options[k]].name, name) == 0) return name;
-  }
+  for (size_t i = 0; i < sizeof of_motion / sizeof *of_motion; i++)
+    if (ambulo__cli_flag(input, of_motion[i])) return of_motion[i];
   return NULL;
 }
 
@@ -78,20 +74,16 @@ static char *solution_of(const char *given) {
 }
 
 static ambulo_status load(const ambulo__cli_input *input, drawing *d) {
-  const char **overrides = calloc((size_t)input->given_count + 1, sizeof *overrides);
   char *solution = solution_of(input->arguments[1]), found[4096];
   /* a name of a shipped file, of two arguments alone: one is a picture, whatever it is called */
   const char *file = input->arguments[0];
   if (ambulo__cli_find_file(file, found, sizeof found)) file = found;
-  ambulo_status status = overrides && solution ? AMBULO_OK : AMBULO_E_MEMORY;
-  int count = status ? 0 : ambulo__cli_values(input, "set", overrides);
-  if (!status)
-    status = ambulo_problem_load(file, overrides, count, NULL, d->diagnostics, &d->problem);
+  ambulo_status status = solution ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) status = ambulo__cli_load_problem(input, file, d->diagnostics, &d->problem);
   if (!status) d->x = calloc((size_t)ambulo_problem_variable_count(d->problem), sizeof *d->x);
   if (!status && !d->x) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo_solution_load(solution, d->problem, NULL, d->diagnostics, d->x);
   free(solution);
-  free(overrides);
   if (status) return status;
   ambulo_options options = ambulo_problem_options(d->problem);
   return ambulo_audit_point(d->problem, &options, d->x, NULL, d->diagnostics, &d->result);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/commands.h"
+#include "cli/body.h"
 #include "cli/output.h"
 #include "cli/summary.h"
 
@@ -15,12 +15,8 @@ typedef struct evaluation {
 } evaluation;
 
 static ambulo_status audit(const ambulo__cli_input *input, evaluation *e) {
-  const char **overrides = calloc((size_t)input->given_count + 1, sizeof *overrides);
-  if (!overrides) return AMBULO_E_MEMORY;
-  int count = ambulo__cli_values(input, "set", overrides);
   ambulo_status status =
-      ambulo_problem_load(input->arguments[0], overrides, count, NULL, e->diagnostics, &e->problem);
-  free(overrides);
+      ambulo__cli_load_problem(input, input->arguments[0], e->diagnostics, &e->problem);
   if (status) return status;
   e->x = calloc((size_t)ambulo_problem_variable_count(e->problem), sizeof *e->x);
   if (!e->x) return AMBULO_E_MEMORY;
@@ -32,21 +28,11 @@ static ambulo_status audit(const ambulo__cli_input *input, evaluation *e) {
   return ambulo_audit_point(e->problem, &options, e->x, NULL, e->diagnostics, &e->result);
 }
 
-/* the summary's object, with the rows as its last member when asked for */
-static ambulo_status print_json(const evaluation *e, int rows) {
+static ambulo_status print_json(const evaluation *e) {
   char *text = NULL;
   ambulo_status status = ambulo_report_summary(e->problem, e->result, NULL, &text);
   if (status) return status;
-  char *end = strrchr(text, '}');
-  if (rows && end) {
-    while (end > text && (end[-1] == '\n' || end[-1] == ' ')) end--;
-    *end = '\0';
-    printf("%s,\n  \"rows\": ", text);
-    ambulo__cli_print_rows_json(e->problem, e->result);
-    printf("\n}\n");
-  } else {
-    fputs(text, stdout);
-  }
+  fputs(text, stdout);
   ambulo_text_free(text, NULL);
   return AMBULO_OK;
 }
@@ -57,7 +43,7 @@ static int run(const ambulo__cli_input *input) {
   ambulo_status status = audit(input, &e);
   int code = ambulo__cli_diagnostics(e.diagnostics, status, input->arguments[0]);
   if (!status && ambulo__cli_flag(input, "json")) {
-    status = print_json(&e, rows);
+    status = print_json(&e);
     if (status) code = ambulo__cli_diagnostics(NULL, status, "summary");
   } else if (!status) {
     ambulo__cli_print_result(e.problem, e.result);
@@ -74,7 +60,7 @@ static int run(const ambulo__cli_input *input) {
 static const ambulo__cli_option options[] = {
     {"set", 0, "path=value", "replace a value of the problem file; may be repeated"},
     {"rows", 0, NULL, "list every constraint row by name"},
-    {"json", 0, NULL, "as JSON"},
+    {"json", 0, NULL, "print what summary.json would say"},
 };
 
 const ambulo__cli_command ambulo__cli_evaluate = {

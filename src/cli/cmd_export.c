@@ -1,36 +1,21 @@
 /* cli/cmd_export.c - ambulo export: a model, and a motion, for other programs. */
-#include <string.h>
-
 #include "cli/body.h"
-#include "cli/commands.h"
-#include "cli/forces.h"
 #include "cli/output.h"
 
 static int read_options(const ambulo__cli_input *input, ambulo_export_options *o,
                         ambulo_inverse_options *inverse) {
-  static const char *const formats[] = {"opensim", "urdf", "npz"};
-  const char *format = ambulo__cli_value(input, "format");
-  const char *angles = ambulo__cli_value(input, "angles");
-  int chosen = -1;
-  for (int i = 0; format && i < 3; i++)
-    if (strcmp(format, formats[i]) == 0) chosen = i;
-  if (chosen < 0) {
-    ambulo__cli_usage_error("export", NULL, "--format is '%s'; expected opensim, urdf or npz",
-                            format ? format : "not given");
+  static const ambulo_angle_unit angles[] = {AMBULO_ANGLES_OF_FILE, AMBULO_ANGLES_DEGREES,
+                                             AMBULO_ANGLES_RADIANS};
+  int format = ambulo__cli_choice(input, "format", -1);
+  if (format < 0) {
+    ambulo__cli_usage_error("export", NULL, "--format is not given; expected opensim, urdf or npz");
     return 0;
   }
-  if (angles && strcmp(angles, "degrees") != 0 && strcmp(angles, "radians") != 0) {
-    ambulo__cli_usage_error("export", NULL, "--angles is '%s'; expected degrees or radians",
-                            angles);
-    return 0;
-  }
-  o->format = (ambulo_export_format)(AMBULO_EXPORT_OPENSIM + chosen);
+  o->format = (ambulo_export_format)(AMBULO_EXPORT_OPENSIM + format);
   o->free_root = ambulo__cli_flag(input, "free-root");
   o->overwrite = ambulo__cli_flag(input, "force");
   o->inverse = inverse;
-  if (angles)
-    inverse->angles =
-        strcmp(angles, "degrees") == 0 ? AMBULO_ANGLES_DEGREES : AMBULO_ANGLES_RADIANS;
+  inverse->angles = angles[ambulo__cli_choice(input, "angles", -1) + 1];
   return 1;
 }
 

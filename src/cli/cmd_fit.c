@@ -5,16 +5,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/commands.h"
-#include "cli/format.h"
+#include "cli/command.h"
 #include "cli/output.h"
-#include "cli/own_program.h"
-#include "cli/stop_signals.h"
+#include "cli/program.h"
 
 enum { MOST_WORKERS = 1024, LINE = 240 };
 
 typedef struct view {
-  int terminal, quiet, told;
+  int terminal, quiet, warned;
 } view;
 
 /* a distance, or a dash */
@@ -42,8 +40,8 @@ static int show(void *user, const ambulo_fit_progress *p) {
     fflush(stderr);
   }
   int seen = ambulo__cli_stops();
-  if (seen > 0 && !v->told && !v->quiet) {
-    v->told = 1;
+  if (seen > 0 && !v->warned && !v->quiet) {
+    v->warned = 1;
     fprintf(stderr, "%sfinishing the running solves; once more to stop now\n",
             v->terminal ? "\r\033[K" : "");
   }
@@ -81,7 +79,7 @@ static int run_fit(const ambulo__cli_input *input, const ambulo_fit *fit, ambulo
   memset(&end, 0, sizeof end);
   o->progress = show;
   o->user = &v;
-  ambulo__cli_catch_stops();
+  ambulo__cli_catch_stops(0);
   ambulo_status status = ambulo_fit_run(fit, directory, o, NULL, diagnostics, &end, &report);
   if (v.terminal && !v.quiet) fprintf(stderr, "\r\033[K");
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);

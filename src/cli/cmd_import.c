@@ -1,74 +1,35 @@
 /* cli/cmd_import.c - ambulo import: a model of OpenSim, URDF or MuJoCo as a model file. */
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "cli/commands.h"
-#include "cli/foot_list.h"
+#include "cli/command.h"
 #include "cli/output.h"
 
-/* the values of the options that may be repeated */
-typedef struct lists {
-  const char **pose, **feet, **heels, **toes;
-} lists;
-
-static int read_root(const ambulo__cli_input *input, ambulo_import_root *root) {
-  const char *text = ambulo__cli_value(input, "root");
-  if (!text) return 1;
-  if (strcmp(text, "free") == 0) {
-    *root = AMBULO_ROOT_FREE;
-  } else if (strcmp(text, "fixed") == 0) {
-    *root = AMBULO_ROOT_FIXED;
-  } else {
-    ambulo__cli_usage_error("import", NULL, "--root is '%s'; expected free or fixed", text);
-    return 0;
-  }
-  return 1;
-}
-
-static int read_options(const ambulo__cli_input *input, lists *l, ambulo_import_options *o) {
-  size_t given = (size_t)input->given_count + 1;
-  l->pose = calloc(given, sizeof *l->pose);
-  l->feet = calloc(given, sizeof *l->feet);
-  l->heels = calloc(given, sizeof *l->heels);
-  l->toes = calloc(given, sizeof *l->toes);
-  if (!l->pose || !l->feet || !l->heels || !l->toes) return 0;
-  o->pose = l->pose;
-  o->feet = l->feet;
-  o->heels = l->heels;
-  o->toes = l->toes;
-  o->pose_count = ambulo__cli_values(input, "pose", l->pose);
-  o->foot_count = ambulo__cli_values(input, "foot", l->feet);
-  o->heel_count = ambulo__cli_values(input, "heel", l->heels);
-  o->toe_count = ambulo__cli_values(input, "toe", l->toes);
+static void read_options(const ambulo__cli_input *input, ambulo_import_options *o) {
+  static const ambulo_import_root roots[] = {AMBULO_ROOT_FREE, AMBULO_ROOT_FIXED};
+  int root = ambulo__cli_choice(input, "root", -1);
+  if (root >= 0) o->root = roots[root];
+  o->pose = ambulo__cli_values(input, "pose", &o->pose_count);
+  o->feet = ambulo__cli_values(input, "foot", &o->foot_count);
+  o->heels = ambulo__cli_values(input, "heel", &o->heel_count);
+  o->toes = ambulo__cli_values(input, "toe", &o->toe_count);
   o->name = ambulo__cli_value(input, "name");
   o->unlock = ambulo__cli_flag(input, "unlock");
   o->repair_inertia = ambulo__cli_flag(input, "repair-inertia");
   o->overwrite = ambulo__cli_flag(input, "force");
-  return 1;
 }
 
 static int run(const ambulo__cli_input *input) {
   const char *source = input->arguments[0], *output = ambulo__cli_value(input, "output");
   ambulo_import_options options = ambulo_import_options_default();
-  lists l = {NULL, NULL, NULL, NULL};
-  ambulo__cli_feet asked;
-  if (!read_root(input, &options.root)) return 2;
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  ambulo_status status = read_options(input, &l, &options) ? AMBULO_OK : AMBULO_E_MEMORY;
   char *text = NULL;
-  if (!status) ambulo__cli_ask_feet(source, output, &options, &asked);
-  if (!status)
-    status =
-        ambulo_import_model(source, output, &options, NULL, diagnostics, output ? NULL : &text);
+  read_options(input, &options);
+  ambulo_status status =
+      ambulo_import_model(source, output, &options, NULL, diagnostics, output ? NULL : &text);
   int code = ambulo__cli_diagnostics(diagnostics, status, source);
   if (text) fputs(text, stdout);
   ambulo_text_free(text, NULL);
   ambulo_diagnostics_free(diagnostics);
-  free(l.pose);
-  free(l.feet);
-  free(l.heels);
-  free(l.toes);
   return code;
 }
 
@@ -101,7 +62,8 @@ const ambulo__cli_command ambulo__cli_import = {
         "of a MuJoCo model (MJCF), and writes a commented model file: links, masses, ranges,\n"
         "torque limits, feet, left and right. What cannot be carried over is named, with what was\n"
         "done instead, as a warning and in the file. Nothing is written when the source is wrong.\n"
-        "Where the source tells no feet, a terminal is asked which links they are.\n"
+        "Feet are links with such a name, or the lowest ones; --foot, --heel and --toe name "
+        "others.\n"
         "See docs/guide-import.md.",
     .example =
         "ambulo import robot.urdf -o robot.yaml\n"

@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/commands.h"
-#include "cli/load.h"
+#include "cli/body.h"
 #include "cli/output.h"
 
 static const double degrees = 57.295779513082321;
@@ -337,14 +336,12 @@ static void print_problem(const ambulo_problem *problem) {
 static int run(const ambulo__cli_input *input) {
   const char *file = input->arguments[0];
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  ambulo_model *model = NULL;
-  ambulo_problem *problem = NULL;
-  ambulo_status status = ambulo__cli_load(input, file, NULL, diagnostics, &model, &problem);
-  if (!status && problem) print_problem(problem);
-  if (!status && model) print_model(model);
+  ambulo__cli_body body = {.model = NULL};
+  ambulo_status status = ambulo__cli_load(input, file, diagnostics, &body);
+  if (!status && body.problem) print_problem(body.problem);
+  if (!status && !body.problem) print_model(body.model);
   int code = ambulo__cli_diagnostics(diagnostics, status, file);
-  ambulo_model_free(model);
-  ambulo_problem_free(problem);
+  ambulo__cli_body_free(&body);
   ambulo_diagnostics_free(diagnostics);
   return code;
 }

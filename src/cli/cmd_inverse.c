@@ -3,64 +3,26 @@
 #include <string.h>
 
 #include "cli/body.h"
-#include "cli/commands.h"
-#include "cli/forces.h"
-#include "cli/format.h"
 #include "cli/output.h"
 
-/* one of `count` words behind an option: its index, `fallback` without the option, or -1 after a
- * message */
-static int choose(const ambulo__cli_input *input, const char *option, const char *const *words,
-                  int count, int fallback) {
-  const char *text = ambulo__cli_value(input, option);
-  if (!text) return fallback;
-  for (int i = 0; i < count; i++) {
-    if (strcmp(text, words[i]) == 0) return i;
-  }
-  char list[128] = "";
-  for (int i = 0; i < count; i++) {
-    size_t used = strlen(list);
-    ambulo__cli_format(list + used, sizeof list - used, "%s%s", i ? " or " : "", words[i]);
-  }
-  ambulo__cli_usage_error(input->command->name, NULL, "--%s is '%s'; expected %s", option, text,
-                          list);
-  return -1;
-}
-
-static int read_units(const ambulo__cli_input *input, ambulo_inverse_options *o) {
-  static const char *const angles[] = {"degrees", "radians"};
-  static const char *const lengths[] = {"m", "cm", "mm"}, *const times[] = {"s", "ms"};
+static void read_units(const ambulo__cli_input *input, ambulo_inverse_options *o) {
   static const double metres[] = {1.0, 0.01, 0.001}, seconds[] = {1.0, 0.001};
-  int angle = choose(input, "angles", angles, 2, 2);
-  int length = choose(input, "lengths", lengths, 3, 0), time = choose(input, "time", times, 2, 0);
-  int force_length = choose(input, "grf-lengths", lengths, 3, 0);
-  int force_time = choose(input, "grf-time", times, 2, 0);
-  if (angle < 0 || length < 0 || time < 0 || force_length < 0 || force_time < 0) return 0;
-  static const ambulo_angle_unit units[] = {AMBULO_ANGLES_DEGREES, AMBULO_ANGLES_RADIANS,
-                                            AMBULO_ANGLES_OF_FILE};
-  o->angles = units[angle];
-  o->length_unit = metres[length];
-  o->time_unit = seconds[time];
-  o->force_length_unit = metres[force_length];
-  o->force_time_unit = seconds[force_time];
-  return 1;
+  static const ambulo_angle_unit angles[] = {AMBULO_ANGLES_OF_FILE, AMBULO_ANGLES_DEGREES,
+                                             AMBULO_ANGLES_RADIANS};
+  o->angles = angles[ambulo__cli_choice(input, "angles", -1) + 1];
+  o->length_unit = metres[ambulo__cli_choice(input, "lengths", 0)];
+  o->time_unit = seconds[ambulo__cli_choice(input, "time", 0)];
+  o->force_length_unit = metres[ambulo__cli_choice(input, "grf-lengths", 0)];
+  o->force_time_unit = seconds[ambulo__cli_choice(input, "grf-time", 0)];
 }
 
 static int read_options(const ambulo__cli_input *input, ambulo_inverse_options *o) {
-  static const char *const sources[] = {"file", "spline"};
   o->strict = ambulo__cli_flag(input, "strict");
   o->overwrite = ambulo__cli_flag(input, "force");
-  int source = choose(input, "derivatives", sources, 2, 0);
-  o->recompute_rates = source == 1;
-  if (source < 0 || !read_units(input, o)) return 0;
-  if (!ambulo__cli_number(input, "filter", 1e-6, 1e6, &o->cutoff) ||
-      !ambulo__cli_number(input, "grf-filter", 1e-6, 1e6, &o->force_cutoff) ||
-      !ambulo__cli_integer(input, "filter-order", 2, 8, &o->filter_order))
-    return 0;
-  if (o->filter_order % 2 == 0) return 1;
-  ambulo__cli_usage_error("inverse", NULL, "--filter-order is %d; expected 2, 4, 6 or 8",
-                          o->filter_order);
-  return 0;
+  o->recompute_rates = ambulo__cli_choice(input, "derivatives", 0);
+  read_units(input, o);
+  return ambulo__cli_number(input, "filter", 1e-6, 1e6, &o->cutoff) &&
+         ambulo__cli_number(input, "grf-filter", 1e-6, 1e6, &o->force_cutoff);
 }
 
 /* warnings about the model count too: an option that changes nothing, for one */
@@ -115,11 +77,12 @@ static const ambulo__cli_option options_table[] = {
     {"derivatives", 0, "file|spline",
      "use the rates and accelerations that the file has (default), or\n"
      "compute all from its values"},
-    {"filter", 0, "HZ", "zero-lag Butterworth low-pass of the motion's values"},
+    {"filter", 0, "HZ", "zero-lag Butterworth low-pass, order 4, of the motion's values"},
     {"grf-filter", 0, "HZ", "the same for the forces and their moments"},
-    {"filter-order", 0, "N", "of the whole filter: 2, 4, 6 or 8 (default: 4)"},
     AMBULO__CLI_BODY_OPTIONS,
 };
+
+static const char *const former[] = {"filter-order", "the filter has order 4", NULL};
 
 const ambulo__cli_command ambulo__cli_inverse = {
     .name = "inverse",
@@ -138,6 +101,7 @@ const ambulo__cli_command ambulo__cli_inverse = {
                "  --force-columns right=ground_force,left=1_ground_force -o torques.csv",
     .options = options_table,
     .option_count = sizeof options_table / sizeof options_table[0],
+    .former = former,
     .minimum = 2,
     .maximum = 2,
     .files = 2,

@@ -1,17 +1,27 @@
-/* cli/cmd_models.c - ambulo models: what is shipped, in the files' own words. */
+/* cli/cmd_models.c - ambulo models: what is shipped, in the files' own words; ambulo new: a shipped
+ * file to start from, whole, with its comments.
+ *
+ * A file that is named in one by its name alone (model: lower_body_21.yaml) is found from anywhere;
+ * what comments say about models/FILE is said of the new file, or of the name alone. */
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "cli/catalogue.h"
-#include "cli/commands.h"
+#include "cli/command.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 
-static const char *const kinds[] = {"problem", "model", "sweep", "fit", "table"};
+/* ----------------------------------------------------------------------- models */
+
+static const char *const file_kinds[] = {"problem", "model", "sweep", "fit", "table"};
 static const char *const titles[] = {"problems (ambulo solve NAME)", "models (ambulo info NAME)",
                                      "sweeps (ambulo batch NAME -o DIR)",
                                      "fits (ambulo fit NAME -o DIR)", "tables that problems name"};
-enum { KINDS = sizeof kinds / sizeof kinds[0] };
+enum { FILE_KINDS = sizeof file_kinds / sizeof file_kinds[0], PATH = 4096 };
 
 /* its name without ".yaml", under which it is found, too */
 static int stem(const ambulo__cli_entry *entry) {
@@ -22,7 +32,7 @@ static int stem(const ambulo__cli_entry *entry) {
 static void print_kind(const ambulo__cli_entry *list, int count, int kind, int names) {
   int printed = 0;
   for (int i = 0; i < count; i++) {
-    if (strcmp(list[i].kind, kinds[kind]) != 0) continue;
+    if (strcmp(list[i].kind, file_kinds[kind]) != 0) continue;
     if (!names && printed++ == 0) printf("%s\n", titles[kind]);
     if (names)
       printf("%.*s\n", stem(&list[i]), list[i].file);
@@ -32,25 +42,25 @@ static void print_kind(const ambulo__cli_entry *list, int count, int kind, int n
   if (printed > 0) printf("\n");
 }
 
-static int run(const ambulo__cli_input *input) {
+static int list_models(const ambulo__cli_input *input) {
   const char *wanted = input->argument_count ? input->arguments[0] : NULL;
   int only = -1, names = ambulo__cli_flag(input, "names");
-  for (int k = 0; wanted && k < KINDS; k++)
-    if (strcmp(wanted, kinds[k]) == 0) only = k;
+  for (int k = 0; wanted && k < FILE_KINDS; k++)
+    if (strcmp(wanted, file_kinds[k]) == 0) only = k;
   if (wanted && only < 0)
     return ambulo__cli_usage_error(
         "models", NULL, "unknown kind '%s'; expected problem, model, sweep, fit or table", wanted);
   ambulo__cli_entry *list = NULL;
   int count = ambulo__cli_catalogue(&list);
   if (count < 0) return ambulo_status_exit_code(AMBULO_E_IO);
-  for (int k = 0; k < KINDS; k++)
+  for (int k = 0; k < FILE_KINDS; k++)
     if (only < 0 || k == only) print_kind(list, count, k, names);
   if (!names && only < 0) printf("'ambulo new NAME > my.yaml' copies one to start from.\n");
   free(list);
   return 0;
 }
 
-static const ambulo__cli_option options[] = {
+static const ambulo__cli_option models_options[] = {
     {"names", 0, NULL, "names alone, one a line"},
 };
 
@@ -65,9 +75,175 @@ const ambulo__cli_command ambulo__cli_models = {
         "names\n"
         "their folder; the environment's AMBULO_MODELS, if set, is another one.",
     .example = "ambulo models\nambulo models sweep\nambulo solve pendulum_swing -o swing",
-    .options = options,
-    .option_count = sizeof options / sizeof options[0],
+    .options = models_options,
+    .option_count = sizeof models_options / sizeof models_options[0],
     .minimum = 0,
     .maximum = 1,
-    .run = run,
+    .run = list_models,
+};
+
+/* -------------------------------------------------------------------------- new */
+
+typedef struct kind {
+  const char *name, *file;
+} kind;
+
+/* the short names; every other shipped file has its own */
+static const kind kinds[] = {
+    {"walk", "walk.yaml"},
+    {"run", "run.yaml"},
+    {"stairs", "stairs_up.yaml"},
+    {"turn", "walk_turn.yaml"},
+    {"arms", "walk_whole_body.yaml"},
+    {"device", "walk_ankle_exoskeleton.yaml"},
+    {"load", "walk_backpack.yaml"},
+    {"obstacle", "step_over.yaml"},
+    {"jump", "jump.yaml"},
+    {"squat", "squat.yaml"},
+    {"reach", "reach_standing.yaml"},
+    {"lift", "lift.yaml"},
+    {"tracking", "walk_tracking.yaml"},
+    {"free", "walk_free_cadence.yaml"},
+    {"model", "lower_body_21.yaml"},
+    {"body", "whole_body_29.yaml"},
+    {"batch", "sweep_walk.yaml"},
+    {"front", "front_walk.yaml"},
+    {"fit", "fit_start.yaml"},
+    {"inverse", "walk_tracking_angles.csv"},
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+/* -------------------------------------------------------------- which file */
+
+static int list_kinds(int names) {
+  for (int i = 0; i < KINDS && names; i++) printf("%s\n", kinds[i].name);
+  if (names) return 0;
+  printf("kinds (ambulo new KIND > my.yaml)\n");
+  for (int i = 0; i < KINDS; i++) {
+    char line[AMBULO__CLI_LINE];
+    char *text = ambulo__cli_shipped_text(kinds[i].file);
+    if (!text) return ambulo_status_exit_code(AMBULO_E_IO);
+    ambulo__cli_first_sentence(text, line, sizeof line);
+    printf("  %-10s %-28s %s\n", kinds[i].name, kinds[i].file, line);
+    free(text);
+  }
+  printf("\nEvery other file of 'ambulo models' will do as well.\n");
+  return 0;
+}
+
+/* the shipped file of a word; NULL after a message */
+static const char *file_of(const char *word, const ambulo__cli_entry *list, int count) {
+  const char *names[KINDS];
+  for (int i = 0; i < KINDS; i++) {
+    names[i] = kinds[i].name;
+    if (strcmp(word, kinds[i].name) == 0) return kinds[i].file;
+  }
+  for (int i = 0; i < count; i++) {
+    size_t length = strcspn(list[i].file, ".");
+    int stem = strlen(word) == length && strncmp(word, list[i].file, length) == 0;
+    if (stem || strcmp(word, list[i].file) == 0) return list[i].file;
+  }
+  char hint[128];
+  const char *nearest = ambulo__cli_nearest(word, names, KINDS);
+  ambulo__cli_format(hint, sizeof hint, nearest ? "did you mean '%s'?" : "'ambulo new' lists them",
+                     nearest);
+  ambulo__cli_usage_error("new", hint, "unknown kind '%s'; expected a kind or a shipped file",
+                          word);
+  return NULL;
+}
+
+/* ------------------------------------------------------------- the new text */
+
+/* where a name of a file ends */
+static size_t name_length(const char *text) {
+  return strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./");
+}
+
+/* models/FILE, of the file itself: its new name; of another: FILE */
+static int write_text(FILE *out, const char *text, const char *file, const char *name) {
+  static const char folder[] = "models/";
+  const char *from = text;
+  for (const char *at = strstr(text, folder); at; at = strstr(at + 1, folder)) {
+    const char *what = at + sizeof folder - 1;
+    size_t length = name_length(what), own = strlen(file);
+    if (length == 0 || (at > text && name_length(at - 1) > name_length(at))) continue;
+    fwrite(from, 1, (size_t)(at - from), out);
+    int itself = length >= own && strncmp(what, file, own) == 0;
+    if (itself) fputs(name, out);
+    from = itself ? what + own : what;
+  }
+  fputs(from, out);
+  return !ferror(out);
+}
+
+static const char *base_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+/* whole or not at all: a file beside it that takes its name */
+static int write_file(const char *path, const char *text, const char *file, int force) {
+  char other[PATH];
+  struct stat there;
+  if (!force && stat(path, &there) == 0) {
+    ambulo__cli_error("E_IO", "--force replaces it", "%s is there already", path);
+    return ambulo_status_exit_code(AMBULO_E_IO);
+  }
+  ambulo__cli_format(other, sizeof other, "%s.%ld.part", path, (long)getpid());
+  int descriptor = open(other, O_WRONLY | O_CREAT | O_EXCL, 0666);
+  FILE *out = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
+  int good = out && write_text(out, text, file, base_of(path)) && fflush(out) == 0 &&
+             fsync(descriptor) == 0;
+  int fault = good ? 0 : errno;
+  if (out && fclose(out) != 0 && good) good = 0, fault = errno;
+  if (good && rename(other, path) != 0) good = 0, fault = errno;
+  if (good) return 0;
+  if (descriptor >= 0) (void)unlink(other);
+  ambulo__cli_error("E_IO", NULL, "%s cannot be written: %s", path, strerror(fault));
+  return ambulo_status_exit_code(AMBULO_E_IO);
+}
+
+static int write_new(const ambulo__cli_input *input) {
+  if (input->argument_count == 0) return list_kinds(ambulo__cli_flag(input, "names"));
+  const char *path = ambulo__cli_value(input, "output");
+  ambulo__cli_entry *list = NULL;
+  int count = ambulo__cli_catalogue(&list), code = 0;
+  if (count < 0) return ambulo_status_exit_code(AMBULO_E_IO);
+  const char *file = file_of(input->arguments[0], list, count);
+  char *text = file ? ambulo__cli_shipped_text(file) : NULL;
+  if (!file)
+    code = ambulo_status_exit_code(AMBULO_E_ARGUMENT);
+  else if (!text)
+    code = ambulo_status_exit_code(AMBULO_E_IO);
+  else if (path)
+    code = write_file(path, text, file, ambulo__cli_flag(input, "force"));
+  else
+    write_text(stdout, text, file, strstr(file, ".csv") ? "my.csv" : "my.yaml");
+  free(text);
+  free(list);
+  return code;
+}
+
+static const ambulo__cli_option new_options[] = {
+    {"output", 'o', "FILE", "write it there (default: standard output)"},
+    {"force", 0, NULL, "replace a file that is there"},
+    {"names", 0, NULL, "the names of the kinds, one a line"},
+};
+
+const ambulo__cli_command ambulo__cli_new = {
+    .name = "new",
+    .arguments = "[KIND]",
+    .summary = "a commented file to start from: walk, run, device, batch, fit ...",
+    .description =
+        "Writes a shipped file, whole, with its comments: without changes it solves. KIND is one\n"
+        "of those that 'ambulo new' lists, or any name of 'ambulo models'. The models and\n"
+        "tables it names are found from anywhere; a file of yours that is called so and stands\n"
+        "beside it comes first. In its comments the file is called as -o says, or my.yaml.",
+    .example = "ambulo new\nambulo new walk > my.yaml\nambulo new device -o exoskeleton.yaml",
+    .options = new_options,
+    .option_count = sizeof new_options / sizeof new_options[0],
+    .minimum = 0,
+    .maximum = 1,
+    .words = "ambulo new --names",
+    .run = write_new,
 };

@@ -4,10 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/batch_dry_run.h"
 #include "cli/body.h"
-#include "cli/commands.h"
-#include "cli/format.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 

@@ -6,51 +6,16 @@
  * solver within a tenth of a second, in set-up and explanation too, and keep the best point; a
  * second one ends the program at once. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "cli/commands.h"
+#include "cli/body.h"
 #include "cli/output.h"
+#include "cli/program.h"
 #include "cli/shipped.h"
 #include "cli/summary.h"
-#include "cli/worker.h"
-
-/* the only things the signal handler touches */
-static volatile sig_atomic_t pending_signal = 0;
-static struct timespec first_signal;
-
-/* The first signal asks for the best point, a later one ends the program at once. One key press
- * can arrive twice (as `timeout` sends it, to the process and to its group), so that repeats
- * within half a second count as one. */
-static void note_signal(int number) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!pending_signal) {
-    first_signal = now;
-    pending_signal = number;
-    return;
-  }
-  double seconds = (double)(now.tv_sec - first_signal.tv_sec) +
-                   1e-9 * (double)(now.tv_nsec - first_signal.tv_nsec);
-  if (seconds < 0.5) return;
-  signal(number, SIG_DFL);
-  raise(number);
-}
-
-static void catch_signals(void) {
-  struct sigaction action;
-  memset(&action, 0, sizeof action);
-  action.sa_handler = note_signal;
-  sigemptyset(&action.sa_mask);
-  sigaddset(&action.sa_mask, SIGINT);
-  sigaddset(&action.sa_mask, SIGTERM);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-}
 
 typedef struct job {
   const ambulo__cli_input *input;
@@ -91,7 +56,7 @@ static int show_progress(void *user, const ambulo_progress *p) {
             p->iteration, p->objective, p->violation, p->evaluations, p->seconds, left);
     fflush(stderr);
   }
-  return pending_signal != 0;
+  return ambulo__cli_stops() > 0;
 }
 
 /* "<problem file without folder and ending>_result" */
@@ -109,19 +74,12 @@ static char *default_directory(const char *problem) {
 }
 
 static int read_repeat(job *j) {
+  static const ambulo_ends ends[] = {AMBULO_ENDS_FREE, AMBULO_ENDS_MIRRORED, AMBULO_ENDS_PERIODIC};
   const char *start = ambulo__cli_value(j->input, "start");
-  const char *repeat = ambulo__cli_value(j->input, "repeat");
-  j->repeat = AMBULO_ENDS_FREE;
-  if (!repeat) return 0;
-  if (!start || !strcmp(start, "zero"))
-    return ambulo__cli_usage_error("solve", NULL,
-                                   "--repeat needs a solution to repeat; expected --start FILE");
-  j->repeat = !strcmp(repeat, "periodic")   ? AMBULO_ENDS_PERIODIC
-              : !strcmp(repeat, "mirrored") ? AMBULO_ENDS_MIRRORED
-                                            : AMBULO_ENDS_FREE;
-  if (j->repeat != AMBULO_ENDS_FREE) return 0;
-  return ambulo__cli_usage_error("solve", NULL, "--repeat is '%s'; expected mirrored or periodic",
-                                 repeat);
+  j->repeat = ends[ambulo__cli_choice(j->input, "repeat", -1) + 1];
+  if (j->repeat == AMBULO_ENDS_FREE || (start && strcmp(start, "zero") != 0)) return 0;
+  return ambulo__cli_usage_error("solve", NULL,
+                                 "--repeat needs a solution to repeat; expected --start FILE");
 }
 
 static int read_options(job *j) {
@@ -141,16 +99,6 @@ static int read_options(job *j) {
   if (!j->directory || !j->diagnostics) return ambulo_status_exit_code(AMBULO_E_MEMORY);
   j->terminal = isatty(STDERR_FILENO) && !ambulo__cli_flag(input, "quiet");
   return 0;
-}
-
-static ambulo_status load_problem(job *j) {
-  const char **overrides = calloc((size_t)j->input->given_count + 1, sizeof *overrides);
-  if (!overrides) return AMBULO_E_MEMORY;
-  int count = ambulo__cli_values(j->input, "set", overrides);
-  ambulo_status status = ambulo_problem_load(j->input->arguments[0], overrides, count, NULL,
-                                             j->diagnostics, &j->problem);
-  free(overrides);
-  return status;
 }
 
 static ambulo_status load_start(job *j) {
@@ -190,7 +138,7 @@ static ambulo_status solve(job *j) {
   if (j->time_limit >= 0.0) options.time_limit = j->time_limit > 0.0 ? j->time_limit : AMBULO_OFF;
   options.progress = show_progress;
   options.user = j;
-  catch_signals();
+  ambulo__cli_catch_stops(1);
   ambulo_status status;
   if (ambulo_problem_parameters(j->problem).count > 0) {
     status = solve_parameters(j, &options);
@@ -230,7 +178,7 @@ static ambulo_status print_outcome(job *j, int written) {
 
 static int verdict_exit_code(const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
-  if (pending_signal) return 128 + (int)pending_signal;
+  if (ambulo__cli_stops() > 0) return 128 + ambulo__cli_stop_signal();
   return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE ? 0 : 1;
 }
 
@@ -246,7 +194,7 @@ static int run_job(job *j) {
   const char *file = j->input->arguments[0];
   ambulo_status status = ambulo_report_check(j->directory, &j->report, j->diagnostics);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
-  status = load_problem(j);
+  status = ambulo__cli_load_problem(j->input, file, j->diagnostics, &j->problem);
   if (!status) status = load_start(j);
   if (!status) status = solve(j);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);

@@ -1,35 +1,24 @@
-/* cli/completion.c - see completion.h.
+/* cli/completion.c - completion scripts for bash, zsh and fish.
  *
  * What may follow is in the tables: the commands, the options of each, and of an option's value its
  * name in the help: words in small letters between bars are choices (mirrored|periodic), DIR is a
  * folder, FILE a file; of others nothing is known. Arguments are files, and the words that the
  * command's own `words` lists when the key is pressed. */
-#include "cli/completion.h"
-
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/command.h"
 #include "cli/output.h"
 
 /* ------------------------------------------------------------ what follows */
 
-static int is_choice(const char *word, size_t length) {
-  for (size_t i = 0; i < length; i++)
-    if (!islower((unsigned char)word[i])) return 0;
-  return length > 0;
-}
-
-/* the choices of a value or of arguments, "mirrored|periodic" or "[model|problem]", with blanks
- * between them */
+/* the choices of a value or of arguments, with blanks between them */
 static void print_choices(const char *value) {
-  const char *blank = "";
+  const char *blank = "", *word;
+  int length;
   if (!strchr(value, '|')) return;
-  for (const char *word = value + (value[0] == '['); *word;) {
-    size_t length = strcspn(word, "|]");
-    if (is_choice(word, length)) printf("%s%.*s", blank, (int)length, word), blank = " ";
-    word += length + (word[length] != '\0');
-  }
+  for (; (word = ambulo__cli_next_choice(&value, &length)); blank = " ")
+    printf("%s%.*s", blank, length, word);
 }
 
 /* what the arguments of a command may be besides files, as words of a shell */
@@ -49,6 +38,18 @@ static int takes_folders(const ambulo__cli_command *c) {
 }
 static int is_file(const char *value) {
   return strstr(value, "FILE") != NULL;
+}
+
+/* text within single quotes, on one line; `special` characters get a backslash */
+static void quote(const char *text, const char *special) {
+  for (const char *c = text; *c; c++) {
+    if (*c == '\'') {
+      fputs("'\\''", stdout);
+      continue;
+    }
+    if (strchr(special, *c)) putchar('\\');
+    putchar(*c == '\n' ? ' ' : *c);
+  }
 }
 
 /* ------------------------------------------------------------------- bash */
@@ -111,20 +112,6 @@ static void print_bash(const ambulo__cli_command *const *commands, int count) {
 }
 
 /* -------------------------------------------------------------------- zsh */
-
-/* within single quotes, where zsh's _arguments reads [ ] and : */
-static void quote(const char *text, const char *special) {
-  for (const char *c = text; *c; c++) {
-    if (*c == '\n') {
-      putchar(' ');
-    } else if (*c == '\'') {
-      fputs("'\\''", stdout);
-    } else {
-      if (strchr(special, *c)) putchar('\\');
-      putchar(*c);
-    }
-  }
-}
 
 static void zsh_option(const ambulo__cli_option *option, int letter) {
   printf("        '*%s", letter ? "-" : "--");
@@ -193,10 +180,7 @@ static void fish_option(const ambulo__cli_command *c, const ambulo__cli_option *
     putchar('\'');
   }
   printf(" -d '");
-  for (const char *h = option->help; *h; h++) {
-    if (*h == '\'' || *h == '\\') putchar('\\');
-    putchar(*h == '\n' ? ' ' : *h);
-  }
+  quote(option->help, "\\");
   printf("'\n");
 }
 
@@ -205,10 +189,7 @@ static void print_fish(const ambulo__cli_command *const *commands, int count) {
   for (int i = 0; i < count; i++) {
     const ambulo__cli_command *c = commands[i];
     printf("complete -c ambulo -n __fish_use_subcommand -f -a %s -d '", c->name);
-    for (const char *s = c->summary; *s; s++) {
-      if (*s == '\'' || *s == '\\') putchar('\\');
-      putchar(*s);
-    }
+    quote(c->summary, "\\");
     printf("'\n");
     for (int k = 0; k < c->option_count; k++) fish_option(c, &c->options[k]);
     printf("complete -c ambulo -n '__fish_seen_subcommand_from %s' -a '", c->name);

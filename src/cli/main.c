@@ -1,20 +1,16 @@
 /* cli/main.c - the program: finds the command, runs it, and makes sure its output arrived.
  *
- * Reading order: main.c, commands.h, args.h, load.h, cmd_solve.c, output.h, summary.h; the other
+ * Reading order: main.c, command.h, args.c, body.h, cmd_solve.c, output.h, summary.h; the other
  * commands alike.
  */
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/blas.h"
-#include "cli/commands.h"
-#include "cli/completion.h"
-#include "cli/format.h"
-#include "cli/man.h"
+#include "cli/command.h"
 #include "cli/output.h"
+#include "cli/program.h"
 #include "cli/shipped.h"
-#include "cli/worker.h"
 
 static const ambulo__cli_command *const commands[] = {
     &ambulo__cli_solve,   &ambulo__cli_evaluate, &ambulo__cli_check,  &ambulo__cli_info,
@@ -23,23 +19,6 @@ static const ambulo__cli_command *const commands[] = {
     &ambulo__cli_import,  &ambulo__cli_draw,     &ambulo__cli_export,
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
-
-static void print_overview(void) {
-  printf("ambulo %s - predicts human motion by optimization\n\n", ambulo_version());
-  printf("usage: ambulo COMMAND ARGUMENTS [options]\n\ncommands:\n");
-  for (int i = 0; i < COMMAND_COUNT; i++)
-    printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
-  printf(
-      "\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts;\n"
-      "'ambulo --models' names the folder of the shipped models and problems, which are found by\n"
-      "their names from anywhere. 'ambulo help --man COMMAND' and 'ambulo help --completion "
-      "SHELL'\n"
-      "print the source of a manual page and a script for bash, zsh or fish.\n");
-  printf("exit codes:\n");
-  for (int i = 0; i < AMBULO__CLI_EXIT_CODES; i++)
-    printf("  %-10s %s\n", ambulo__cli_exit_codes[i].code, ambulo__cli_exit_codes[i].meaning);
-  printf("\nexample:\n  ambulo solve models/yardstick_12.yaml -o walk\n");
-}
 
 static void print_version(void) {
   ambulo_versions versions;
@@ -88,7 +67,7 @@ static int print_generated(const char *option, const char *word) {
 
 /* the overview, or the page of a command */
 static int print_help(const char *word) {
-  if (!word) print_overview();
+  if (!word) ambulo__cli_print_overview(commands, COMMAND_COUNT);
   for (int i = 0; word && i < COMMAND_COUNT; i++) {
     if (strcmp(word, commands[i]->name) != 0) continue;
     ambulo__cli_print_help(commands[i]);

@@ -1,4 +1,4 @@
-/* cli/output.c - messages on stderr, and the certainty that stdout was written. */
+/* cli/output.c - messages on stderr, the certainty that stdout was written, Ctrl-C. */
 #include "cli/output.h"
 
 #include <errno.h>
@@ -8,9 +8,21 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "cli/shipped.h"
+
+enum { USUAL_LINE = 240 };
+
+void ambulo__cli_format(char *buffer, size_t size, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(buffer, size, format, arguments);
+  va_end(arguments);
+  if (length < 0 && size > 0) buffer[0] = '\0';
+}
 
 /* what a user typed may hold control characters: they are shown, never sent */
 static void print_escaped(FILE *stream, const char *text) {
@@ -65,11 +77,6 @@ static void print_diagnostic(const ambulo_diagnostics *list, size_t index) {
   fprintf(stderr, "%s\n", text);
 }
 
-int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
-                            const char *subject) {
-  return ambulo__cli_diagnostics_but(diagnostics, status, subject, NULL);
-}
-
 int ambulo__cli_diagnostics_but(const ambulo_diagnostics *diagnostics, ambulo_status status,
                                 const char *subject, const char *known) {
   size_t count = ambulo_diagnostics_count(diagnostics);
@@ -112,4 +119,59 @@ void ambulo__cli_guard_streams(void) {
     int opened = open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);
     if (opened < 0) return;
   }
+}
+
+int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
+                            const char *subject) {
+  return ambulo__cli_diagnostics_but(diagnostics, status, subject, NULL);
+}
+
+/* ----------------------------------------------------------------- long commands */
+
+/* all that a signal handler touches */
+static volatile sig_atomic_t signals_seen = 0, last_signal = 0, fatal_signal = 0;
+static struct timespec first_signal;
+
+/* One key press can arrive twice (as `timeout` sends it, to the process and to its group): where
+ * the next signal is fatal, repeats within half a second count as one. */
+static void note_signal(int number) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (signals_seen == 0) first_signal = now;
+  signals_seen = signals_seen + 1;
+  last_signal = number;
+  if (!fatal_signal || signals_seen == 1) return;
+  double seconds = (double)(now.tv_sec - first_signal.tv_sec) +
+                   1e-9 * (double)(now.tv_nsec - first_signal.tv_nsec);
+  if (seconds < 0.5) return;
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
+void ambulo__cli_catch_stops(int fatal) {
+  struct sigaction action;
+  memset(&action, 0, sizeof action);
+  fatal_signal = fatal;
+  action.sa_handler = note_signal;
+  sigemptyset(&action.sa_mask);
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+int ambulo__cli_stops(void) {
+  return (int)signals_seen;
+}
+
+int ambulo__cli_stop_signal(void) {
+  return (int)last_signal;
+}
+
+int ambulo__cli_line_room(void) {
+#ifdef TIOCGWINSZ
+  struct winsize size;
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col - 1;
+#endif
+  return USUAL_LINE;
 }

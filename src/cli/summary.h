@@ -18,7 +18,4 @@ ambulo_status ambulo__cli_print_sensitivities(const ambulo_problem *problem,
 /* Every row: index, family, subject, detail, time, value, unit, multiplier. */
 void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result);
 
-/* The same as a JSON array. */
-void ambulo__cli_print_rows_json(const ambulo_problem *problem, const ambulo_result *result);
-
 #endif

@@ -264,6 +264,27 @@ static void stand(feet *f) {
   for (int i = 0; i < 3; i++) t->links[0].origin.p[i] -= lowest * f->axes[2][i];
 }
 
+static int is_end(const ambulo__tree *t, int link) {
+  for (int i = 0; i < t->link_count; i++)
+    if (t->links[i].parent == link) return 0;
+  return 1;
+}
+
+/* how to say what the source does not, with the links that may be feet */
+static void note_no_feet(ambulo__tree *t) {
+  char ends[400] = "";
+  size_t used = 0;
+  for (int i = 0; i < t->link_count && used + 80 < sizeof ends; i++)
+    if (is_end(t, i))
+      used += (size_t)snprintf(ends + used, sizeof ends - used, "%s%.64s", used ? ", " : "",
+                               t->links[i].name);
+  ambulo__tree_note(t, NULL,
+                    "no feet: no link is named as a foot and has geometry; name one by --foot "
+                    "left=LINK (geometry), or by --heel left=LINK:X,Y,Z and --toe; links at the "
+                    "ends of the body: %s",
+                    ends);
+}
+
 void ambulo__find_feet(ambulo__tree *tree) {
   feet f = {.tree = tree};
   set_axes(&f);
@@ -275,9 +296,6 @@ void ambulo__find_feet(ambulo__tree *tree) {
   }
   if (tree->xml->status || tree->arena->failed) return;
   if (tree->foot_count == 0) guess_feet(&f);
-  if (tree->foot_count == 0)
-    ambulo__tree_note(tree, NULL,
-                      "no feet: no link says that it is one and has geometry; give them by --foot "
-                      "FOOT=LINK, or by --heel and --toe FOOT=LINK:X,Y,Z");
+  if (tree->foot_count == 0) note_no_feet(tree);
   stand(&f);
 }

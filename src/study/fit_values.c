@@ -115,14 +115,6 @@ static int value_at(ambulo__yaml *document, const char *key, ambulo_diagnostics 
   return 0;
 }
 
-static void check_factor(const ambulo__fit_parameter *p, const ambulo__yaml_node *node, int key,
-                         double own) {
-  if (p->scale == AMBULO__FIT_LINEAR || own != 0.0) return;
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, "scale: linear adds to it",
-                           "'%s' is 0, which no factor changes; expected another number",
-                           p->key[key]);
-}
-
 /* index: of the condition; -1: as the file is, where a key may lack */
 static ambulo_status read_values(ambulo_fit *fit, int index) {
   static const char *const kinds[] = {"problem"};
@@ -145,7 +137,10 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
       (void)snprintf(lead, sizeof lead, "key '%.120s' of the problem", p->key[k]);
       ambulo_status told = found || !c ? AMBULO_OK : retell(node, AMBULO_E_SCHEMA, lead, list);
       if (told == AMBULO_E_MEMORY) status = told;
-      if (found && c) check_factor(p, node, k, *value);
+      if (found && c && p->scale == AMBULO__FIT_LOG && *value == 0.0)
+        (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, "scale: linear adds to it",
+                                 "'%s' is 0, which no factor changes; expected another number",
+                                 p->key[k]);
     }
   }
   if (status && status != AMBULO_E_MEMORY)
@@ -154,17 +149,6 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
   ambulo__yaml_free(document);
   ambulo_diagnostics_free(list);
   return status;
-}
-
-static ambulo_status allocate(ambulo_fit *fit) {
-  for (int i = 0; i < fit->parameters; i++) {
-    ambulo__fit_parameter *p = &fit->parameter[i];
-    size_t keys = (size_t)p->keys;
-    p->own = ambulo__alloc(&fit->allocator, keys * (size_t)fit->conditions, sizeof *p->own);
-    p->in_file = ambulo__alloc(&fit->allocator, keys, sizeof *p->in_file);
-    if (!p->own || !p->in_file) return AMBULO_E_MEMORY;
-  }
-  return AMBULO_OK;
 }
 
 /* ---------------------------------------------------------------------- trying */
@@ -218,7 +202,14 @@ static ambulo_status try_all(const ambulo_fit *fit) {
 }
 
 ambulo_status ambulo__fit_read_keys(ambulo_fit *fit) {
-  ambulo_status status = allocate(fit);
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < fit->parameters; i++) {
+    ambulo__fit_parameter *p = &fit->parameter[i];
+    size_t keys = (size_t)p->keys, conditions = (size_t)fit->conditions;
+    p->own = ambulo__alloc(&fit->allocator, keys * conditions, sizeof *p->own);
+    p->in_file = ambulo__alloc(&fit->allocator, keys, sizeof *p->in_file);
+    if (!p->own || !p->in_file) return AMBULO_E_MEMORY;
+  }
   for (int c = -1; c < fit->conditions && !status; c++) {
     status = read_values(fit, c);
     /* the next condition would say the same of a key */

@@ -6,9 +6,6 @@
 #   name     what is tested
 #   setup    shell commands before it (not judged)
 #   run      the command; $AMBULO the program, $MODELS the shipped models
-#   typed    a shell command that prints what is typed: the command then runs in a terminal, all that it
-#            prints is stdout, that the typing is over is the end of its input; skipped without
-#            script of util-linux
 #   exit     expected exit code (0 if left out)
 #   out err  a text that stdout / stderr contains (may be repeated)
 #   not      a text that neither contains
@@ -34,7 +31,6 @@ trap 'chmod -R u+rwx "$scratch" 2>/dev/null; rm -rf "$scratch"' EXIT
 passed=0 failed=0
 filter=${1:-}
 shopt -s extglob
-terminal=$(script --version 2>/dev/null | grep util-linux)
 
 # until a condition holds; or the process is gone, which what follows then shows
 await() { # process, command
@@ -48,7 +44,7 @@ until_says() { await "$1" grep -q -e "$2" "$3"; } # process, text, its file
 export -f await has_worker until_worker until_interruptible until_says
 
 reset() {
-  name='' setup='' run='' code=0 silent='' writes='' cpu='' bounded='' typed=''
+  name='' setup='' run='' code=0 silent='' writes='' cpu='' bounded=''
   out=() err=() not=() there=()
 }
 
@@ -91,11 +87,6 @@ finish() {
     reset
     return
   fi
-  if [ -n "$typed" ] && [ -z "$terminal" ]; then
-    echo "skipped without script of util-linux: $file: $name"
-    reset
-    return
-  fi
   box=$scratch/box
   bad=0
   chmod -R u+rwx "$box" 2>/dev/null
@@ -104,14 +95,8 @@ finish() {
   (cd "$box" && find . -mindepth 1 -maxdepth 1 | sort) >"$box.before"
   local status=0 TIMEFORMAT='%U %S'
   # shellcheck disable=SC2016
-  if [ -n "$typed" ]; then
-    export run box
-    { time (cd "$box" && eval "$typed" | SHELL=/bin/bash script -qec 'eval "$run"' /dev/null) \
-      >"$box.out" 2>"$box.err"; } 2>"$box.time" || status=$?
-  else
-    { time bash -c 'exec >"$1.out" 2>"$1.err" </dev/null; cd "$1" && eval "$2"' case "$box" "$run"; } \
-      2>"$box.time" || status=$?
-  fi
+  { time bash -c 'exec >"$1.out" 2>"$1.err" </dev/null; cd "$1" && eval "$2"' case "$box" "$run"; } \
+    2>"$box.time" || status=$?
   judge "$status"
   if [ "$bad" = 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
   reset
@@ -125,7 +110,7 @@ for path in "$here"/*.txt; do
     case $line in
       '') finish ;;
       '#'*) ;;
-      name:* | setup:* | run:* | typed:* | silent:* | writes:* | cpu:* | bounded:*)
+      name:* | setup:* | run:* | silent:* | writes:* | cpu:* | bounded:*)
         printf -v "$key" '%s' "$value" ;;
       exit:*) code=$value ;;
       out:*) out+=("$value") ;;

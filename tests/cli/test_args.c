@@ -1,5 +1,5 @@
 /* Command lines: forms of options, refusals, numbers, nearest words. */
-#include "cli/args.h"
+#include "cli/command.h"
 #include "support/test.h"
 
 #include <fcntl.h>
@@ -10,8 +10,8 @@ static char seen[512];
 static int want_number;
 
 static int remember(const ambulo__cli_input *input) {
-  const char *values[16];
-  int count = ambulo__cli_values(input, "set", values);
+  int count;
+  const char *const *values = ambulo__cli_values(input, "set", &count);
   const char *output = ambulo__cli_value(input, "output");
   double limit = -1.0;
   int samples = -1;
@@ -25,21 +25,22 @@ static int remember(const ambulo__cli_input *input) {
     used += snprintf(seen + used, sizeof seen - (size_t)used, " [%s]", values[i]);
   for (int i = 0; i < input->argument_count; i++)
     used += snprintf(seen + used, sizeof seen - (size_t)used, " <%s>", input->arguments[i]);
+  int root = ambulo__cli_choice(input, "root", -1);
+  if (root >= 0) (void)snprintf(seen + used, sizeof seen - (size_t)used, " root %d", root);
   return 42;
 }
 
-static const ambulo__cli_option options[] = {{"output", 'o', "DIR", "where"},
-                                             {"set", 0, "path=value", "what"},
-                                             {"limit", 0, "S", "how long"},
-                                             {"samples", 0, "n", "how many"},
-                                             {"quiet", 'q', NULL, "how loud"}};
+static const ambulo__cli_option options[] = {
+    {"output", 'o', "DIR", "where"},        {"set", 0, "path=value", "what"},
+    {"limit", 0, "S", "how long"},          {"samples", 0, "n", "how many"},
+    {"root", 0, "free|fixed|any", "which"}, {"quiet", 'q', NULL, "how loud"}};
 static const ambulo__cli_command command = {.name = "test",
                                             .arguments = "FILE",
                                             .summary = "",
                                             .description = "",
                                             .example = "",
                                             .options = options,
-                                            .option_count = 5,
+                                            .option_count = 6,
                                             .minimum = 1,
                                             .maximum = 2,
                                             .run = remember};
@@ -79,6 +80,9 @@ static void test_forms(void **state) {
   expect("--output=out a b -q", "out 1 <a> <b>");
   expect("--output x --output y a", "y 0 <a>");
   expect("--set p=1 a --set=q=2", "- 0 [p=1] [q=2] <a>");
+  expect("-q --set p=1 a -o out --set=q=2 --limit 1 --set r=3", "out 1 [p=1] [q=2] [r=3] <a>");
+  expect("a --root fixed", "- 0 <a> root 1");
+  expect("a --root free --root any", "- 0 <a> root 2");
   expect("-- -o --quiet", "- 0 <-o> <--quiet>");
   expect("-", "- 0 <->");
 }
@@ -98,6 +102,9 @@ static void test_refusals(void **state) {
                                     "a --limit inf",
                                     "a --limit 101",
                                     "a --samples 1",
+                                    "a --root loose",
+                                    "a --root fre",
+                                    "a --root free|fixed",
                                     "a --samples 2.5",
                                     "a --samples 99999999999999999999"};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -1,8 +1,7 @@
 /* Commands whose every request for memory fails from the k-th on, wherever it is made, in libraries
  * too: exit code 5 and "error[E_MEMORY]", or all of the output. malloc() of this program fails;
  * that is done with the GNU C library, and not below a sanitizer, which has its own. */
-#include "cli/args.h"
-#include "cli/commands.h"
+#include "cli/command.h"
 #include "cli/output.h"
 #include "support/fake_batch.h"
 
