@@ -109,6 +109,8 @@ check 'own_term: right gradients' awk_says \
 check 'own_term: the head is up, the knees do less' awk_says \
   '{ head[$1] = $6; knees[$1] = $(NF - 1) }
    END { exit !(head["before"] < 1.75 && head["after"] > 1.75499 && knees["after"] < knees["before"]) }'
+check 'own_problem runs' run_program own_problem
+check 'own_problem: a swing' says '^optimal: [0-9.]* of which [0-9.]* power squared'
 check 'what_it_costs runs' run_program what_it_costs models/walker_2d_step.yaml gait.step_length 0.4 1.1
 check 'what_it_costs: the best is cheaper' awk_says \
   '/^best/ { better = $10 + 0 < $13 + 0 } /costs|saves/ { words++ } END { exit !(better && words == 5) }'
