@@ -1,5 +1,5 @@
 /* Capsules, obstacles and reaches of a definition made in C: every number that counts, and what
- * mirrored ends ask of them. The keys of files are those of tests/definitions/test_problem_bodies.c. */
+ * mirrored ends ask of them. The keys of files are those of tests/definitions/test_problem_constraints.c. */
 #include "contact/collision.h"
 #include "ambulo/tools/load.h"
 #include "model/neutral_pose.h"

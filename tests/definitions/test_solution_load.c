@@ -183,5 +183,5 @@ int main(void) {
       SCRATCH_TEST(test_same_bits),    SCRATCH_TEST(test_finer_grid),
       SCRATCH_TEST(test_repeated),     SCRATCH_TEST(test_refusals),
       SCRATCH_TEST(test_missing_file), SCRATCH_TEST(test_out_of_memory)};
-  return cmocka_run_group_tests_name("reader/solution_load", tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, NULL, NULL);
 }

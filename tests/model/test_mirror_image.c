@@ -4,7 +4,7 @@
 #include "model/mirror_image.h"
 
 #include "ambulo/tools/tools.h"
-#include "definitions/model_file.h"
+#include "definitions/model_reader.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/symmetric_model.h"

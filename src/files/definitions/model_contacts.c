@@ -1,23 +1,36 @@
 /* definitions/model_contacts.c - `points`, `feet`, `patches` and `capsules` of a model file. */
 #include "definitions/model_reader.h"
 
+static int point_at(const ambulo__reader *reader, const ambulo__yaml_node *node) {
+  return ambulo__read_reference(reader, node, AMBULO__LIST_POINTS);
+}
+
+static int link_of(const ambulo__reader *reader, const ambulo__yaml_node *item) {
+  return ambulo__read_reference(reader, ambulo__yaml_require(item, "link"), AMBULO__LIST_LINKS);
+}
+
+/* a place in the link's frame */
+static void read_place(ambulo__reader *reader, const ambulo__yaml_node *item, const char *key,
+                       double place[3]) {
+  (void)ambulo__read_vector(reader, ambulo__yaml_require(item, key), 3, reader->length, place);
+}
+
+/* Mirror images can be resolved once all items of a list have names. */
+static int mirror_of(const ambulo__reader *reader, const ambulo__yaml_node *list, int index,
+                     ambulo__model_list of) {
+  const ambulo__yaml_node *mirror = ambulo__yaml_get(ambulo__yaml_item(list, index), "mirror");
+  return ambulo__read_reference(reader, mirror, of);
+}
+
 void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list) {
   for (int i = 0; i < reader->definition.point_count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_point *point = &reader->points[i];
-    const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
-    point->name = reader->point_names[i] = name;
-    reader->point_places[i] = ambulo__yaml_place(item);
-    point->link = ambulo__read_reference(ambulo__yaml_require(item, "link"), "link",
-                                         reader->link_names, reader->definition.link_count);
-    (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "position"), 3, reader->length,
-                              point->position);
+    point->name = ambulo__read_item_name(reader, item, AMBULO__LIST_POINTS, i);
+    point->link = link_of(reader, item);
+    read_place(reader, item, "position", point->position);
     ambulo__yaml_close(item);
   }
-}
-
-static int point_at(const ambulo__reader *reader, const ambulo__yaml_node *node) {
-  return ambulo__read_reference(node, "point", reader->point_names, reader->definition.point_count);
 }
 
 /* One or two corners. */
@@ -54,12 +67,11 @@ static void read_arcs(const ambulo__reader *reader, const ambulo__yaml_node *nod
 }
 
 void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
-  for (int i = 0; i < reader->definition.foot_count; i++) {
+  int count = reader->definition.foot_count;
+  for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_foot *foot = &reader->feet[i];
-    const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
-    foot->name = reader->foot_names[i] = name;
-    reader->foot_places[i] = ambulo__yaml_place(item);
+    foot->name = ambulo__read_item_name(reader, item, AMBULO__LIST_FEET, i);
     read_corners(reader, ambulo__yaml_require(item, "heel"), foot->heel);
     read_corners(reader, ambulo__yaml_require(item, "toe"), foot->toe);
     foot->heel_center = read_center(reader, item, "heel_center", foot->heel);
@@ -71,54 +83,40 @@ void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
     ambulo__yaml_expect(item, "mirror");
     ambulo__yaml_close(item);
   }
-  for (int i = 0; i < reader->definition.foot_count; i++) {
-    reader->feet[i].mirror =
-        ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "foot",
-                               reader->foot_names, reader->definition.foot_count);
-  }
+  for (int i = 0; i < count; i++)
+    reader->feet[i].mirror = mirror_of(reader, list, i, AMBULO__LIST_FEET);
 }
 
 void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list) {
-  for (int i = 0; i < reader->definition.patch_count; i++) {
+  int count = reader->definition.patch_count;
+  for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_patch *patch = &reader->patches[i];
-    const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
-    patch->name = reader->patch_names[i] = name;
-    reader->patch_places[i] = ambulo__yaml_place(item);
+    patch->name = ambulo__read_item_name(reader, item, AMBULO__LIST_PATCHES, i);
     patch->point = point_at(reader, ambulo__yaml_require(item, "point"));
     (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "size"), 2, reader->length,
                               patch->size);
     ambulo__yaml_expect(item, "mirror");
     ambulo__yaml_close(item);
   }
-  for (int i = 0; i < reader->definition.patch_count; i++) {
-    reader->patches[i].mirror =
-        ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "patch",
-                               reader->patch_names, reader->definition.patch_count);
-  }
+  for (int i = 0; i < count; i++)
+    reader->patches[i].mirror = mirror_of(reader, list, i, AMBULO__LIST_PATCHES);
 }
 
 void ambulo__read_capsules(ambulo__reader *reader, const ambulo__yaml_node *list) {
-  for (int i = 0; i < reader->definition.capsule_count; i++) {
+  int count = reader->definition.capsule_count;
+  for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_capsule *capsule = &reader->capsules[i];
-    const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
-    capsule->name = reader->capsule_names[i] = name;
-    reader->capsule_places[i] = ambulo__yaml_place(item);
-    capsule->link = ambulo__read_reference(ambulo__yaml_require(item, "link"), "link",
-                                           reader->link_names, reader->definition.link_count);
-    (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "from"), 3, reader->length,
-                              capsule->from);
-    (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "to"), 3, reader->length,
-                              capsule->to);
+    capsule->name = ambulo__read_item_name(reader, item, AMBULO__LIST_CAPSULES, i);
+    capsule->link = link_of(reader, item);
+    read_place(reader, item, "from", capsule->from);
+    read_place(reader, item, "to", capsule->to);
     capsule->radius =
         ambulo__read_scaled(reader, ambulo__yaml_require(item, "radius"), reader->length, 0.0);
     ambulo__yaml_expect(item, "mirror");
     ambulo__yaml_close(item);
   }
-  for (int i = 0; i < reader->definition.capsule_count; i++) {
-    reader->capsules[i].mirror =
-        ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "capsule",
-                               reader->capsule_names, reader->definition.capsule_count);
-  }
+  for (int i = 0; i < count; i++)
+    reader->capsules[i].mirror = mirror_of(reader, list, i, AMBULO__LIST_CAPSULES);
 }

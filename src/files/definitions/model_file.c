@@ -1,5 +1,4 @@
 /* definitions/model_file.c - a model file, from text to model (docs/model-format.md). */
-#include "definitions/model_file.h"
 #include "ambulo/tools/load.h"
 #include "base/sized.h"
 
@@ -8,64 +7,45 @@
 
 #include "definitions/model_reader.h"
 
-ambulo_status ambulo__reader_status(const ambulo__reader *reader) {
-  ambulo_status status = ambulo__yaml_finish(reader->document);
-  return status != AMBULO_OK ? status : reader->status;
-}
-
 /* ------------------------------------------------------------------- memory */
 
 static int allocate(ambulo__reader *r) {
   const ambulo_allocator *a = &r->allocator;
-  size_t links = (size_t)r->definition.link_count, points = (size_t)r->definition.point_count;
-  size_t feet = (size_t)r->definition.foot_count, patches = (size_t)r->definition.patch_count;
-  size_t capsules = (size_t)r->definition.capsule_count;
-  size_t all = 2 * links + points + feet + patches + capsules;
-  r->links = ambulo__alloc(a, links, sizeof *r->links);
-  r->coordinates = ambulo__alloc(a, links, sizeof *r->coordinates);
-  r->points = ambulo__alloc(a, points, sizeof *r->points);
-  r->feet = ambulo__alloc(a, feet, sizeof *r->feet);
-  r->patches = ambulo__alloc(a, patches, sizeof *r->patches);
-  r->capsules = ambulo__alloc(a, capsules, sizeof *r->capsules);
-  r->link_places = ambulo__alloc(a, all, sizeof *r->link_places);
-  r->link_names = ambulo__alloc(a, all, sizeof *r->link_names);
-  r->origins = ambulo__origins_create(a, r->definition.link_count);
-  if (!r->origins || !r->links || !r->coordinates || !r->points || !r->feet || !r->patches ||
-      !r->capsules || !r->link_places || !r->link_names)
-    return 0;
-  r->coordinate_places = r->link_places + links;
-  r->point_places = r->coordinate_places + links;
-  r->foot_places = r->point_places + points;
-  r->patch_places = r->foot_places + feet;
-  r->capsule_places = r->patch_places + patches;
-  r->coordinate_names = r->link_names + links;
-  r->point_names = r->coordinate_names + links;
-  r->foot_names = r->point_names + points;
-  r->patch_names = r->foot_names + feet;
-  r->capsule_names = r->patch_names + patches;
-  r->places.links = r->link_places;
-  r->places.coordinates = r->coordinate_places;
-  r->places.points = r->point_places;
-  r->places.feet = r->foot_places;
-  r->places.patches = r->patch_places;
-  r->places.capsules = r->capsule_places;
-  return 1;
+  const ambulo_model_definition *d = &r->definition;
+  const int counts[] = {d->link_count, d->link_count,  d->point_count,
+                        d->foot_count, d->patch_count, d->capsule_count};
+  int complete = 1;
+  r->links = ambulo__alloc(a, (size_t)d->link_count, sizeof *r->links);
+  r->coordinates = ambulo__alloc(a, (size_t)d->link_count, sizeof *r->coordinates);
+  r->points = ambulo__alloc(a, (size_t)d->point_count, sizeof *r->points);
+  r->feet = ambulo__alloc(a, (size_t)d->foot_count, sizeof *r->feet);
+  r->patches = ambulo__alloc(a, (size_t)d->patch_count, sizeof *r->patches);
+  r->capsules = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *r->capsules);
+  r->origins = ambulo__origins_create(a, d->link_count);
+  for (int k = 0; k < AMBULO__MODEL_LISTS; k++) {
+    r->names[k] = ambulo__alloc(a, (size_t)counts[k], sizeof *r->names[k]);
+    r->place_of[k] = ambulo__alloc(a, (size_t)counts[k], sizeof *r->place_of[k]);
+    complete &= r->names[k] && r->place_of[k];
+  }
+  r->places.links = r->place_of[AMBULO__LIST_LINKS];
+  r->places.coordinates = r->place_of[AMBULO__LIST_COORDINATES];
+  r->places.points = r->place_of[AMBULO__LIST_POINTS];
+  r->places.feet = r->place_of[AMBULO__LIST_FEET];
+  r->places.patches = r->place_of[AMBULO__LIST_PATCHES];
+  r->places.capsules = r->place_of[AMBULO__LIST_CAPSULES];
+  return complete && r->origins && r->links && r->coordinates && r->points && r->feet &&
+         r->patches && r->capsules;
 }
 
 static void release(ambulo__reader *r) {
-  const ambulo_allocator *a = &r->allocator;
-  ambulo__free(a, r->links);
-  ambulo__free(a, r->coordinates);
-  ambulo__free(a, r->points);
-  ambulo__free(a, r->feet);
-  ambulo__free(a, r->patches);
-  ambulo__free(a, r->capsules);
-  ambulo__free(a, r->link_places);
-  ambulo__free(a, r->link_names);
-  ambulo__free(a, r->origins);
-  ambulo__free(a, r->rows);
-  ambulo__free(a, r->row_places);
-  ambulo__free(a, r->row_names);
+  void *blocks[] = {r->links,    r->coordinates, r->points, r->feet,       r->patches,
+                    r->capsules, r->origins,     r->rows,   r->row_places, r->row_names};
+  for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
+    ambulo__free(&r->allocator, blocks[i]);
+  for (int k = 0; k < AMBULO__MODEL_LISTS; k++) {
+    ambulo__free(&r->allocator, r->names[k]);
+    ambulo__free(&r->allocator, r->place_of[k]);
+  }
 }
 
 /* ------------------------------------------------------------------ sections */
@@ -106,11 +86,11 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
   const ambulo__yaml_node *patches = ambulo__yaml_get(root, "patches");
   const ambulo__yaml_node *capsules = ambulo__yaml_get(root, "capsules");
   ambulo__yaml_close(root);
-  int good = ambulo__read_count(r, links, "links", AMBULO__MAX_LINKS, &d->link_count);
-  good &= ambulo__read_count(r, points, "points", AMBULO__MAX_POINTS, &d->point_count);
-  good &= ambulo__read_count(r, feet, "feet", AMBULO__MAX_FEET, &d->foot_count);
-  good &= ambulo__read_count(r, patches, "patches", AMBULO__MAX_PATCHES, &d->patch_count);
-  good &= ambulo__read_count(r, capsules, "capsules", AMBULO__MAX_CAPSULES, &d->capsule_count);
+  int good = ambulo__read_count(links, "links", AMBULO__MAX_LINKS, &d->link_count);
+  good &= ambulo__read_count(points, "points", AMBULO__MAX_POINTS, &d->point_count);
+  good &= ambulo__read_count(feet, "feet", AMBULO__MAX_FEET, &d->foot_count);
+  good &= ambulo__read_count(patches, "patches", AMBULO__MAX_PATCHES, &d->patch_count);
+  good &= ambulo__read_count(capsules, "capsules", AMBULO__MAX_CAPSULES, &d->capsule_count);
   if (!good) return;
   if (!allocate(r)) {
     r->status = AMBULO_E_MEMORY;
@@ -157,7 +137,8 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
                            .definition = ambulo_model_definition_default()};
   reader.subject = *subject;
   read_document(&reader, subject);
-  ambulo_status status = ambulo__reader_status(&reader);
+  ambulo_status status = ambulo__yaml_finish(document);
+  if (status == AMBULO_OK) status = reader.status;
   if (status == AMBULO_OK) {
     status = ambulo__model_build(&reader.definition, &reader.places, &reader.allocator, diagnostics,
                                  model);
@@ -172,30 +153,16 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
   return status;
 }
 
-ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *subject,
-                                      const ambulo__model_setting *setting, int settings,
-                                      const ambulo_allocator *allocator,
-                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
-  ambulo__yaml *document = NULL;
-  ambulo_subject own;
-  ambulo_status status = take_subject(subject, diagnostics, &own);
-  if (status == AMBULO_OK) status = ambulo__yaml_load(path, allocator, diagnostics, &document);
-  for (int i = 0; i < settings && status == AMBULO_OK; i++)
-    status = ambulo__yaml_set_below(document, "model.", setting[i].path, setting[i].value);
-  if (status == AMBULO_OK) status = build(document, &own, allocator, diagnostics, model);
-  ambulo__yaml_free(document);
-  return status;
-}
-
-ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
-                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                ambulo_model **model) {
-  if (!path || !model) return AMBULO_E_ARGUMENT;
-  size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status =
-      ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
-  return ambulo__conclude(diagnostics, errors, status, path);
-}
+/* Where a model file comes from, and what is replaced before it is read. */
+typedef struct source {
+  const char *path; /* NULL: the text */
+  const char *text, *name;
+  size_t length;
+  const ambulo__model_setting *setting; /* [settings] */
+  int settings;
+  const char *const *override; /* [overrides] "path=value" */
+  int overrides;
+} source;
 
 /* "path=value" put into the document */
 static ambulo_status apply_override(ambulo__yaml *document, const char *override,
@@ -219,36 +186,61 @@ static ambulo_status apply_override(ambulo__yaml *document, const char *override
   return status;
 }
 
+static ambulo_status load(const source *from, const ambulo_subject *subject,
+                          const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                          ambulo_model **model) {
+  ambulo__yaml *document = NULL;
+  ambulo_subject own;
+  ambulo_status status = take_subject(subject, diagnostics, &own);
+  if (!status)
+    status = from->path ? ambulo__yaml_load(from->path, allocator, diagnostics, &document)
+                        : ambulo__yaml_load_text(from->text, from->length, from->name, allocator,
+                                                 diagnostics, &document);
+  for (int i = 0; i < from->settings && !status; i++)
+    status =
+        ambulo__yaml_set_below(document, "model.", from->setting[i].path, from->setting[i].value);
+  for (int i = 0; i < from->overrides && !status; i++)
+    status = apply_override(document, from->override[i], allocator, diagnostics);
+  if (!status) status = build(document, &own, allocator, diagnostics, model);
+  ambulo__yaml_free(document);
+  return status;
+}
+
+ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *subject,
+                                      const ambulo__model_setting *setting, int settings,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
+  const source from = {.path = path, .setting = setting, .settings = settings};
+  return load(&from, subject, allocator, diagnostics, model);
+}
+
+ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_model **model) {
+  const source from = {.path = path};
+  if (!path || !model) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status = load(&from, subject, allocator, diagnostics, model);
+  return ambulo__conclude(diagnostics, errors, status, path);
+}
+
 ambulo_status ambulo_model_load_with(const char *path, const char *const *overrides,
                                      int override_count, const ambulo_subject *subject,
                                      const ambulo_allocator *allocator,
                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
+  const source from = {.path = path, .override = overrides, .overrides = override_count};
   if (!path || !model || override_count < 0 || (override_count > 0 && !overrides))
     return AMBULO_E_ARGUMENT;
-  ambulo__yaml *document = NULL;
-  ambulo_subject own;
-  ambulo_status status = take_subject(subject, diagnostics, &own);
-  if (!status) status = ambulo__yaml_load(path, allocator, diagnostics, &document);
-  for (int i = 0; i < override_count && !status; i++)
-    status = apply_override(document, overrides[i], allocator, diagnostics);
-  if (!status) status = build(document, &own, allocator, diagnostics, model);
-  ambulo__yaml_free(document);
-  return status;
+  return load(&from, subject, allocator, diagnostics, model);
 }
 
 ambulo_status ambulo_model_load_text(const char *text, size_t length, const char *name,
                                      const ambulo_subject *subject,
                                      const ambulo_allocator *allocator,
                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
-  ambulo__yaml *document = NULL;
+  const source from = {.text = text, .length = length, .name = name};
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!text || !model) return AMBULO_E_ARGUMENT;
-  ambulo_subject own;
-  ambulo_status status = take_subject(subject, diagnostics, &own);
-  if (status == AMBULO_OK) {
-    status = ambulo__yaml_load_text(text, length, name, allocator, diagnostics, &document);
-  }
-  if (status == AMBULO_OK) status = build(document, &own, allocator, diagnostics, model);
-  ambulo__yaml_free(document);
+  ambulo_status status = load(&from, subject, allocator, diagnostics, model);
   return ambulo__conclude(diagnostics, errors, status, name);
 }

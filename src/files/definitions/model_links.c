@@ -1,7 +1,8 @@
-/* definitions/model_links.c - `links` of a model file: tree, DH constants, coordinates. */
-#include <string.h>
-
+/* definitions/model_links.c - `links` of a model file: tree, DH constants, coordinates, bodies. */
 #include "definitions/model_reader.h"
+
+#include <math.h>
+#include <string.h>
 
 static int is_world(const char *name) {
   return strcmp(name, "none") == 0 || strcmp(name, "world") == 0;
@@ -10,13 +11,11 @@ static int is_world(const char *name) {
 static void read_names(ambulo__reader *reader, const ambulo__yaml_node *list) {
   for (int i = 0; i < reader->definition.link_count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
-    const ambulo__yaml_node *node = ambulo__yaml_require(item, "name");
-    const char *name = ambulo__yaml_name(node);
+    const char *name = ambulo__read_item_name(reader, item, AMBULO__LIST_LINKS, i);
     reader->links[i] = ambulo_link_default();
-    reader->link_places[i] = ambulo__yaml_place(item);
-    reader->links[i].name = reader->link_names[i] = name;
+    reader->links[i].name = name;
     if (is_world(name)) {
-      (void)ambulo__yaml_error(node, AMBULO_E_MODEL, NULL,
+      (void)ambulo__yaml_error(ambulo__yaml_get(item, "name"), AMBULO_E_MODEL, NULL,
                                "no link can be named '%s': it stands for the world", name);
     }
   }
@@ -30,15 +29,14 @@ static void read_parent(ambulo__reader *reader, const ambulo__yaml_node *item, i
   ambulo_link *link = &reader->links[index];
   if (!name[0]) return;
   if (!is_world(name)) {
-    link->parent =
-        ambulo__read_reference(node, "link", reader->link_names, reader->definition.link_count);
+    link->parent = ambulo__read_reference(reader, node, AMBULO__LIST_LINKS);
     return;
   }
   if (*root >= 0) {
     (void)ambulo__yaml_error(node, AMBULO_E_MODEL, "hang both on one fixed link",
                              "two roots: '%s' (line %d) and '%s' hang on the world; expected one",
-                             reader->links[*root].name, reader->link_places[*root].line,
-                             link->name);
+                             reader->links[*root].name,
+                             reader->place_of[AMBULO__LIST_LINKS][*root].line, link->name);
     return;
   }
   *root = index;
@@ -81,10 +79,10 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   *coordinate = ambulo_coordinate_default();
   coordinate->type = link->type;
   coordinate->name = link->name;
-  reader->coordinate_places[index] = node ? ambulo__yaml_place(node) : link_place;
+  reader->place_of[AMBULO__LIST_COORDINATES][index] = node ? ambulo__yaml_place(node) : link_place;
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
   if (name) coordinate->name = ambulo__yaml_name(name);
-  reader->coordinate_names[index] = coordinate->name;
+  reader->names[AMBULO__LIST_COORDINATES][index] = coordinate->name;
   ambulo__read_interval(reader, ambulo__yaml_get(node, "range"), unit, is_angle, coordinate->range);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "torque"),
@@ -109,7 +107,7 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   ambulo__read_body(reader, item, link);
   const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
   if (link->type != AMBULO_FIXED) {
-    read_coordinate(reader, coordinate, link, reader->link_places[index]);
+    read_coordinate(reader, coordinate, link, reader->place_of[AMBULO__LIST_LINKS][index]);
   } else if (coordinate && choice == 0) {
     (void)ambulo__yaml_error(coordinate, AMBULO_E_SCHEMA, NULL,
                              "link '%s' is fixed; expected no coordinate", link->name);
@@ -123,9 +121,8 @@ static void read_mirrors(ambulo__reader *reader, const ambulo__yaml_node *list) 
     if (reader->links[i].type == AMBULO_FIXED) continue;
     const ambulo__yaml_node *coordinate =
         ambulo__yaml_get(ambulo__yaml_item(list, i), "coordinate");
-    reader->coordinates[index++].mirror =
-        ambulo__read_reference(ambulo__yaml_get(coordinate, "mirror"), "coordinate",
-                               reader->coordinate_names, reader->definition.coordinate_count);
+    reader->coordinates[index++].mirror = ambulo__read_reference(
+        reader, ambulo__yaml_get(coordinate, "mirror"), AMBULO__LIST_COORDINATES);
   }
 }
 
@@ -136,4 +133,74 @@ void ambulo__read_links(ambulo__reader *reader, const ambulo__yaml_node *list) {
     read_link(reader, ambulo__yaml_item(list, i), i, &root);
   }
   read_mirrors(reader, list);
+}
+
+/* ------------------------------------------------------------------------- bodies */
+
+/* gyration [x, y, z]: radii about the axes of the link through the centre of mass,
+ * I_xx = m k_x^2 and so on, no products. */
+static int read_inertia(ambulo__reader *reader, const ambulo__yaml_node *node,
+                        const ambulo__yaml_node *inertia, const ambulo__yaml_node *gyration,
+                        ambulo__part *part) {
+  if ((inertia == NULL) == (gyration == NULL)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "a point mass has `gyration: [0, 0, 0]`",
+                             "a body has %s; expected one of `inertia` and `gyration`",
+                             inertia ? "both" : "no inertia");
+    return 0;
+  }
+  if (inertia) {
+    double unit = reader->mass * reader->length * reader->length;
+    return ambulo__read_vector(reader, inertia, 6, unit, part->inertia);
+  }
+  double radius[3];
+  if (!ambulo__read_vector(reader, gyration, 3, reader->length, radius)) return 0;
+  for (int i = 0; i < 3; i++) part->inertia[i] = part->mass * radius[i] * radius[i];
+  return 1;
+}
+
+static void read_part(ambulo__reader *reader, const ambulo__yaml_node *node, const char *owner,
+                      ambulo__part *whole) {
+  ambulo__part part = {0};
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  const ambulo__yaml_node *mass = ambulo__yaml_require(node, "mass");
+  const ambulo__yaml_node *com = ambulo__yaml_require(node, "com");
+  const ambulo__yaml_node *inertia = ambulo__yaml_get(node, "inertia");
+  const ambulo__yaml_node *gyration = ambulo__yaml_get(node, "gyration");
+  const char *what = name ? ambulo__yaml_name(name) : owner;
+  ambulo__yaml_close(node);
+  if (!mass || !com) return;
+  part.mass = ambulo__read_scaled(reader, mass, reader->mass, NAN);
+  int good = ambulo__read_vector(reader, com, 3, reader->length, part.com);
+  good &= read_inertia(reader, node, inertia, gyration, &part);
+  if (!good || isnan(part.mass)) return; /* reported already */
+  ambulo__body_places places = {ambulo__yaml_place(mass),
+                                ambulo__yaml_place(inertia ? inertia : gyration)};
+  ambulo_status status = ambulo__check_body(what[0] ? what : owner, part.mass, part.com,
+                                            part.inertia, places, reader->diagnostics);
+  if (status == AMBULO_OK) {
+    ambulo__part_add(whole, &part);
+  } else if (reader->status == AMBULO_OK) {
+    reader->status = status;
+  }
+}
+
+void ambulo__read_body(ambulo__reader *reader, const ambulo__yaml_node *link_node,
+                       ambulo_link *link) {
+  const ambulo__yaml_node *body = ambulo__yaml_get(link_node, "body");
+  const ambulo__yaml_node *bodies = ambulo__yaml_get(link_node, "bodies");
+  ambulo__part whole = {0};
+  int count = 0;
+  if (body && bodies) {
+    (void)ambulo__yaml_error(bodies, AMBULO_E_SCHEMA, NULL,
+                             "link '%s' has `body` and `bodies`; expected one of them", link->name);
+    return;
+  }
+  if (body) read_part(reader, body, link->name, &whole);
+  if (!ambulo__read_count(bodies, "bodies", AMBULO__MAX_PARTS, &count)) return;
+  for (int i = 0; i < count; i++) {
+    read_part(reader, ambulo__yaml_item(bodies, i), link->name, &whole);
+  }
+  link->mass = whole.mass;
+  for (int i = 0; i < 3; i++) link->com[i] = whole.com[i];
+  for (int i = 0; i < 6; i++) link->inertia[i] = whole.inertia[i];
 }

@@ -138,7 +138,7 @@ static void expand(ambulo__reader *reader, ambulo_link *links, ambulo__place *pl
       own = append_rows(reader, i, links, texts);
     else
       links[rows] = reader->links[i];
-    for (int k = 0; k < own; k++) places[rows + k] = reader->link_places[i];
+    for (int k = 0; k < own; k++) places[rows + k] = reader->place_of[AMBULO__LIST_LINKS][i];
     rows += own;
     if (o->joint >= 0) o->joint += o->first;
   }

@@ -1,8 +1,8 @@
 /* definitions/model_reader.h - a model file on its way to a definition (docs/model-format.md).
  *
  * The parts of the file are read in this order: subject and units, links, coordinates' mirror
- * images, points, feet, patches, capsules. Faults are recorded and reading goes on;
- * ambulo__reader_status() tells at the end. Names in the definition belong to the YAML document. */
+ * images, points, feet, patches, capsules. Faults are recorded and reading goes on. Names in the
+ * definition belong to the YAML document. */
 #ifndef AMBULO_DEFINITIONS_MODEL_READER_H
 #define AMBULO_DEFINITIONS_MODEL_READER_H
 
@@ -12,6 +12,17 @@
 #include "model/composite.h"
 
 typedef struct ambulo__origin ambulo__origin; /* of a link (model_placement.c) */
+
+/* What the file lists, under names that it refers to. */
+typedef enum ambulo__model_list {
+  AMBULO__LIST_LINKS,
+  AMBULO__LIST_COORDINATES, /* of the links, as many at most */
+  AMBULO__LIST_POINTS,
+  AMBULO__LIST_FEET,
+  AMBULO__LIST_PATCHES,
+  AMBULO__LIST_CAPSULES,
+  AMBULO__MODEL_LISTS
+} ambulo__model_list;
 
 typedef struct ambulo__reader {
   ambulo_allocator allocator;
@@ -32,10 +43,8 @@ typedef struct ambulo__reader {
   ambulo_patch *patches;          /* [patch_count] */
   ambulo_capsule *capsules;       /* [capsule_count] */
   ambulo__model_places places;
-  ambulo__place *link_places, *coordinate_places, *point_places, *foot_places, *patch_places,
-      *capsule_places;
-  const char **link_names, **coordinate_names, **point_names, **foot_names, **patch_names,
-      **capsule_names;
+  const char **names[AMBULO__MODEL_LISTS]; /* of the items, and where they stand */
+  ambulo__place *place_of[AMBULO__MODEL_LISTS];
   ambulo__origin *origins; /* [links of the file + 1] */
   /* what links with an origin became, NULL where there is none: DH rows, of more links than the
    * file has */
@@ -44,11 +53,12 @@ typedef struct ambulo__reader {
   char *row_names;
 } ambulo__reader;
 
-ambulo_status ambulo__reader_status(const ambulo__reader *reader);
-
 /* Items of an optional sequence, at most `limit`: *count and 1, or 0 after E_LIMIT or E_SCHEMA. */
-int ambulo__read_count(ambulo__reader *reader, const ambulo__yaml_node *list, const char *what,
-                       int limit, int *count);
+int ambulo__read_count(const ambulo__yaml_node *list, const char *what, int limit, int *count);
+
+/* The required name of item `index` of a list, noted with its place. */
+const char *ambulo__read_item_name(ambulo__reader *reader, const ambulo__yaml_node *item,
+                                   ambulo__model_list list, int index);
 
 /* ------------------------------------------------------- numbers (model_numbers.c) */
 
@@ -66,10 +76,10 @@ double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node,
 void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
                            int is_angle, double interval[2]);
 
-/* Index of the name at `node` among names[0..count), or -1 with E_MODEL and the nearest one.
- * NULL gives -1 silently. */
-int ambulo__read_reference(const ambulo__yaml_node *node, const char *kind,
-                           const char *const *names, int count);
+/* Index of the name at `node` in a list, or -1 with E_MODEL and the nearest one. NULL gives -1
+ * silently. */
+int ambulo__read_reference(const ambulo__reader *reader, const ambulo__yaml_node *node,
+                           ambulo__model_list list);
 
 /* ------------------------------------------------------------------------- sections */
 
@@ -91,5 +101,17 @@ void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_capsules(ambulo__reader *reader, const ambulo__yaml_node *list);
+
+/* ------------------------------------------------------------------------ the whole */
+
+/* One value of the model file, replaced before it is read: "links[shank_r].body.mass". */
+typedef struct ambulo__model_setting {
+  const char *path, *value;
+} ambulo__model_setting;
+/* ambulo_model_load with such settings; messages call them "--set model.PATH". */
+ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *subject,
+                                      const ambulo__model_setting *setting, int settings,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_diagnostics *diagnostics, ambulo_model **model);
 
 #endif

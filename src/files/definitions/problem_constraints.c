@@ -1,7 +1,11 @@
-/* definitions/problem_constraints.c - `constraints:` and `ends:` of a problem file. */
+/* definitions/problem_constraints.c - `constraints:`, `ends:` and `obstacles:` of a problem file.
+ */
+#include "contact/collision.h"
 #include "definitions/problem_reader.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 /* ---------------------------------------------------------------- constraints */
 
@@ -120,4 +124,189 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
   d->end_values = list.values;
   d->end_value_count = list.count;
   ambulo__yaml_close(section);
+}
+
+/* -------------------------------------------------- collision, reach and obstacles */
+
+static const double usual_margin = 0.01; /* m */
+static const double farthest = 1000.0;   /* m */
+
+enum { MOST_ITEMS = 10000 };
+
+static int find_capsule(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  return ambulo__read_name_of(reader, node, AMBULO__NAMED_CAPSULE);
+}
+
+/* a list, or an error and NULL */
+static const ambulo__yaml_node *list_of(const ambulo__yaml_node *node, const char *what) {
+  if (!node || ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE)) return node;
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "expected a list of %s", what);
+  return NULL;
+}
+
+/* ------------------------------------------------------------------ collision */
+
+/* a pair that overlaps as the body stands cannot hold there */
+static void warn_of_overlap(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
+                            ambulo_capsule_pair pair) {
+  const ambulo_capsule *capsules = reader->model->capsules;
+  double gap = 0.0;
+  ambulo_status status = ambulo__rest_gap(reader->model, pair, &reader->allocator, &gap);
+  if (status) reader->failure = status;
+  if (status || gap >= 0.0) return;
+  ambulo__yaml_warning(item, "'pairs: automatic' leaves such pairs out",
+                       "'%s' and '%s' overlap by %.3g m in the rest pose", capsules[pair.one].name,
+                       capsules[pair.other].name, -gap);
+}
+
+static int read_pair(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
+                     ambulo_capsule_pair *pair) {
+  if (!ambulo__yaml_is(item, AMBULO__YAML_SEQUENCE) || ambulo__yaml_items(item) != 2) {
+    (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                             "expected the names of two capsules, such as [shank_l, shank_r]");
+    return 0;
+  }
+  pair->one = find_capsule(reader, ambulo__yaml_item(item, 0));
+  pair->other = find_capsule(reader, ambulo__yaml_item(item, 1));
+  if (pair->one < 0 || pair->other < 0) return 0;
+  if (pair->one != pair->other) {
+    warn_of_overlap(reader, item, *pair);
+    return 1;
+  }
+  (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL,
+                           "a capsule and itself (got '%s' twice); expected two capsules",
+                           reader->model->capsules[pair->one].name);
+  return 0;
+}
+
+static void read_pairs(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                       ambulo_collision *collision) {
+  static const char *const words[] = {"automatic", "off"};
+  if (!node || ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) {
+    collision->mode =
+        ambulo__yaml_choice(node, words, 2, 0) ? AMBULO_COLLISION_OFF : AMBULO_COLLISION_AUTOMATIC;
+    return;
+  }
+  if (!list_of(node, "pairs of capsules, or 'automatic'")) return;
+  int count = ambulo__yaml_items(node), good = 0;
+  if (count == 0)
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "an empty list; expected pairs of capsules, 'automatic' or 'off'");
+  ambulo_capsule_pair *pairs = ambulo__reader_alloc(reader, (size_t)count, sizeof *pairs);
+  for (int i = 0; pairs && i < count; i++)
+    good += read_pair(reader, ambulo__yaml_item(node, i), &pairs[good]);
+  collision->mode = AMBULO_COLLISION_PAIRS;
+  collision->pairs = pairs;
+  collision->pair_count = good;
+}
+
+static void read_collision(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  ambulo_collision *collision = &reader->definition.collision;
+  if (!section) return;
+  collision->margin = usual_margin;
+  ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
+  read_pairs(reader, ambulo__yaml_get(section, "pairs"), collision);
+  ambulo__yaml_close(section);
+}
+
+/* ---------------------------------------------------------------------- reach */
+
+/* `at`: a time, or [from, to] */
+static void read_times(const ambulo__yaml_node *node, ambulo_reach *reach) {
+  double times[2] = {0.0, 0.0};
+  if (ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE)) {
+    (void)ambulo__yaml_numbers(node, 2, times);
+  } else {
+    times[0] = times[1] = ambulo__yaml_number(node, 0.0);
+  }
+  reach->from = times[0];
+  reach->to = times[1];
+}
+
+static void read_reach(ambulo__problem_reader *reader, const ambulo__yaml_node *item, void *out) {
+  ambulo_reach *reach = out;
+  int point =
+      ambulo__read_name_of(reader, ambulo__yaml_require(item, "point"), AMBULO__NAMED_POINT);
+  reach->point = point < 0 ? 0 : point; /* that was said */
+  const ambulo__yaml_node *other = ambulo__yaml_get(item, "relative_to");
+  reach->about = ambulo__read_name_of(reader, other, AMBULO__NAMED_POINT);
+  reach->is_relative = reach->about >= 0;
+  ambulo__read_members(reader, item, &ambulo__reach_members, "", reach);
+  if (!other || ambulo__yaml_get(item, "at")) read_times(ambulo__yaml_require(item, "at"), reach);
+  ambulo__yaml_close(item);
+}
+
+/* ------------------------------------------------------------------ obstacles */
+
+static void read_sizes(const ambulo__yaml_node *node, double half[3]) {
+  if (!ambulo__yaml_numbers(node, 3, half)) return;
+  for (int i = 0; i < 3; i++) {
+    if (half[i] > 0.0 && half[i] <= farthest) continue;
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "half a size of %g m; expected more than 0, at most %g m", half[i],
+                             farthest);
+    half[i] = 1.0;
+  }
+}
+
+static void read_shape(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
+                       ambulo_obstacle *obstacle) {
+  int is_capsule = ambulo__yaml_get(item, "radius") != NULL || ambulo__yaml_get(item, "to") != NULL;
+  if (is_capsule) {
+    obstacle->shape = AMBULO_OBSTACLE_CAPSULE;
+    (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "from"), 3, obstacle->from);
+    (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "to"), 3, obstacle->to);
+    obstacle->radius =
+        ambulo__yaml_number_in(ambulo__yaml_require(item, "radius"), 1e-4, farthest, 1.0);
+    return;
+  }
+  obstacle->shape = AMBULO_OBSTACLE_BOX;
+  (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "center"), 3, obstacle->center);
+  read_sizes(ambulo__yaml_require(item, "half_size"), obstacle->half);
+  obstacle->heading = ambulo__read_plain_angle(reader, ambulo__yaml_get(item, "heading"), 0.0);
+}
+
+static void read_capsules(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          ambulo_obstacle *obstacle) {
+  static const char *const words[] = {"all"};
+  if (!node || ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) {
+    (void)ambulo__yaml_choice(node, words, 1, 0);
+    return;
+  }
+  if (!list_of(node, "capsules, or 'all'")) return;
+  int count = ambulo__yaml_items(node), good = 0;
+  int *capsules = ambulo__reader_alloc(reader, (size_t)count + 1, sizeof *capsules);
+  for (int i = 0; capsules && i < count; i++) {
+    capsules[good] = find_capsule(reader, ambulo__yaml_item(node, i));
+    good += capsules[good] >= 0;
+  }
+  if (count == 0)
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "an empty list; expected names of capsules, or 'all'");
+  obstacle->capsules = good ? capsules : NULL;
+  obstacle->capsule_count = good;
+}
+
+static void read_obstacle(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
+                          void *out) {
+  ambulo_obstacle *obstacle = out;
+  obstacle->margin = usual_margin;
+  ambulo__read_members(reader, item, &ambulo__obstacle_members, "", obstacle);
+  read_shape(reader, item, obstacle);
+  read_capsules(reader, ambulo__yaml_get(item, "capsules"), obstacle);
+  ambulo__yaml_close(item);
+}
+
+void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  ambulo_problem_definition *d = &reader->definition;
+  const ambulo__yaml_node *section = ambulo__yaml_get(root, "constraints");
+  if (ambulo__yaml_is(section, AMBULO__YAML_MAPPING)) {
+    read_collision(reader, ambulo__yaml_get(section, "collision"));
+    d->reaches =
+        ambulo__read_items(reader, ambulo__yaml_get(section, "reach"), &ambulo__reach_members, 0,
+                           MOST_ITEMS, read_reach, &d->reach_count);
+  }
+  d->obstacles =
+      ambulo__read_items(reader, ambulo__yaml_get(root, "obstacles"), &ambulo__obstacle_members, 0,
+                         MOST_ITEMS, read_obstacle, &d->obstacle_count);
 }

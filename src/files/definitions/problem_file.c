@@ -6,14 +6,16 @@
  * its message begins with.
  *
  * Reading order: problem_reader.h, problem_file.c, problem_reader.c, problem_grid.c,
- * problem_schedule.c, problem_constraints.c, problem_objective.c, problem_solver.c, problem_free.h;
- * model_file.h, model_reader.h, model_links.c; solution_load.c.
+ * problem_gait.c, problem_contacts.c, problem_constraints.c, problem_objective.c, problem_free.h;
+ * model_reader.h, model_file.c, model_links.c; solution_load.c.
  */
-#include "definitions/problem_free.h"
 #include "ambulo/tools/load.h"
-
+#include "ambulo/tools/report.h"
 #include "base/sized.h"
+#include "definitions/problem_free.h"
 #include "formats/read_file.h"
+#include "formats/yaml_node.h"
+#include "problem/definition.h"
 #include "problem/nlp.h"
 
 #include <string.h>
@@ -120,12 +122,42 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   (void)ambulo__yaml_error(node, status, NULL, "the model '%s' could not be loaded", path);
 }
 
+/* the body that the numbers of the file are for; what becomes of them for the subject is
+ * ambulo__definition_resize's */
+static void read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  ambulo__problem_keys *keys = &reader->keys;
+  keys->longer = keys->heavier = 1.0;
+  const ambulo__yaml_node *section = ambulo__reader_section(root, "written_for");
+  if (!section) return;
+  double mass = ambulo__yaml_number_in(ambulo__yaml_require(section, "mass"), 1.0, 1000.0, 0.0);
+  double stature = ambulo__yaml_number_in(ambulo__yaml_require(section, "stature"), 0.3, 3.0, 0.0);
+  ambulo__yaml_close(section);
+  if (!reader->model || !(mass > 0.0) || !(stature > 0.0)) return;
+  double subject_mass = reader->model->units.mass;
+  double subject_stature = ambulo_model_stature(reader->model);
+  if (!(subject_stature > 0.0) || subject_mass == 1.0 || !(subject_mass > 0.0)) {
+    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
+                             "'written_for' with a model that has its own size; expected one whose "
+                             "units are those of a subject");
+    return;
+  }
+  keys->written_for = 1;
+  keys->longer = subject_stature / stature;
+  keys->heavier = subject_mass / mass;
+}
+
+static void scale_to_subject(ambulo__problem_reader *reader) {
+  const ambulo__problem_keys *keys = &reader->keys;
+  ambulo_problem_definition *d = &reader->definition;
+  if (keys->written_for) ambulo__definition_resize(d, d->term_count, keys->longer, keys->heavier);
+}
+
 static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   static const char *const kinds[] = {"problem"};
   if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return;
   read_header(reader, root);
   read_model(reader, root);
-  ambulo__read_written_for(reader, root);
+  read_written_for(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
   ambulo__read_constraints(reader, ambulo__reader_section(root, "constraints"));
   static const char *const others[] = {"trajectory",      "contacts",  "ends",
@@ -143,7 +175,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
     ambulo__read_ends(reader, ambulo__reader_section(root, "ends"));
     ambulo__read_devices(reader, ambulo__yaml_get(root, "devices"));
     ambulo__read_objective(reader, ambulo__yaml_require(root, "objective"));
-    ambulo__scale_to_subject(reader);
+    scale_to_subject(reader);
   }
   ambulo__yaml_expect(root, "free"); /* once there is a problem */
   ambulo__yaml_close(root);
@@ -330,4 +362,20 @@ ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *val
                                 ambulo_problem **at) {
   if (!problem || !values || !at || !ambulo__problem_root(problem)->free) return AMBULO_E_ARGUMENT;
   return ambulo__problem_at(ambulo_problem_load_text, problem, values, allocator, diagnostics, at);
+}
+
+/* -------------------------------------------------------------- model or problem? */
+
+ambulo_status ambulo_file_kind_of(const char *path, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_file_kind *kind) {
+  if (!path || !kind) return AMBULO_E_ARGUMENT;
+  ambulo__yaml *document = NULL;
+  ambulo_status status = ambulo__yaml_load(path, allocator, diagnostics, &document);
+  if (status) return status;
+  static const char *const kinds[] = {"model", "problem"};
+  int choice = ambulo__yaml_file_kind(ambulo__yaml_root(document), kinds, 2);
+  status = ambulo__yaml_finish(document);
+  if (!status) *kind = choice == 0 ? AMBULO_FILE_MODEL : AMBULO_FILE_PROBLEM;
+  ambulo__yaml_free(document);
+  return status;
 }

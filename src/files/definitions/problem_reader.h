@@ -12,7 +12,7 @@
 #include "formats/yaml_node.h"
 #include "problem/members.h"
 #include "problem/nlp.h"
-#include "definitions/model_file.h"
+#include "definitions/model_reader.h"
 
 typedef struct ambulo__reader_block ambulo__reader_block;
 
@@ -100,6 +100,10 @@ double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambul
 
 /* Called with the model loaded: */
 void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* The foot that a node names; -1 after an error, and without a node. */
+int ambulo__read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_node *node);
+/* `contacts:`, a list. */
+void ambulo__read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
 /* `gait:` or `contacts:`; after the time, which it may complete. */
 void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `gait.phases`, into the rule of the gait; and what is wrong with the walk that follows. */
@@ -109,9 +113,6 @@ void ambulo__check_phases(const ambulo__problem_reader *reader, const ambulo__ya
 /* A step length {comfortable, slope}, into the rule, whose speed is known. */
 void ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
-/* `written_for`, before all that it scales; and what it scales, once all is read. */
-void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
-void ambulo__scale_to_subject(ambulo__problem_reader *reader);
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
 void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root);

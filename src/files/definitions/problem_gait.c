@@ -1,4 +1,5 @@
-/* definitions/problem_schedule.c - `gait:` or `contacts:` of a problem file.
+/* definitions/problem_gait.c - `gait:` of a problem file: steps, times and phases of a regular
+ * walk.
  *
  * Duration, number of steps, step time and speed say the same thing twice:
  *     step_time = step_length / speed,   duration = steps * step_time
@@ -6,135 +7,12 @@
  * the length: so a cadence is varied at a given speed. Of a speed alone follow both. Two unlike
  * steps: lists of two lengths, of two times.
  */
-#include "definitions/problem_reader.h"
-
-#include "contact/contact_frame.h"
 #include "contact/gait.h"
+#include "definitions/problem_reader.h"
 
 #include <math.h>
 #include <stdio.h>
-
-enum { MOST_CONTACTS = 5000 };
-
-/* index of the foot a node names; -1 when there is none */
-static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  enum { MOST_FEET = 64 };
-  const char *names[MOST_FEET];
-  int feet = ambulo_model_foot_count(reader->model);
-  if (feet > MOST_FEET) feet = MOST_FEET;
-  if (feet == 0) {
-    if (node)
-      (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM,
-                               "feet of the model file (docs/model-format.md); of an imported one: "
-                               "ambulo import --foot, or --heel and --toe",
-                               "the model has no feet");
-    return -1;
-  }
-  for (int i = 0; i < feet; i++) names[i] = ambulo_model_foot(reader->model, i)->name;
-  return ambulo__yaml_choice(node, names, feet, -1);
-}
-
-/* ------------------------------------------------------------------- contacts */
-
-/* two numbers on the level ground, or three */
-static void read_place(const ambulo__yaml_node *node, double place[3]) {
-  int given = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
-  if (!node || given == 2 || given == 3) {
-    (void)ambulo__yaml_numbers(node, given, place);
-    return;
-  }
-  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                           "'place' is not a list of 2 or 3 lengths: forward, left, up");
-}
-
-/* zeros are no choice; those of patches point anywhere */
-static void read_normal(const ambulo__yaml_node *node, int is_foot, double normal[3]) {
-  if (!ambulo__yaml_numbers(node, 3, normal)) return;
-  if (normal[2] != 0.0 && ambulo__contact_normal_is_legal(normal)) return;
-  if (!is_foot && (normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0)) return;
-  if (!is_foot) {
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                             "a normal of zeros along forward, left and up; expected a direction");
-    return;
-  }
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                           "a normal of (%g, %g, %g) along forward, left and up; expected one that "
-                           "is up to 60 degrees from up",
-                           normal[0], normal[1], normal[2]);
-}
-
-/* index of the patch a node names; 0 after an error */
-static int read_patch(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  int count = ambulo_model_patch_count(reader->model);
-  if (count == 0) {
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL, "the model has no patches");
-    return 0;
-  }
-  const char **names = ambulo__reader_alloc(reader, (size_t)count, sizeof *names);
-  for (int i = 0; names && i < count; i++) names[i] = ambulo_model_patch(reader->model, i)->name;
-  return names ? ambulo__yaml_choice(node, names, count, 0) : 0;
-}
-
-/* {foot, mode} or {patch} */
-static void read_effector(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                          ambulo_contact *contact) {
-  static const char *const modes[] = {"heel", "flat", "toe"};
-  const ambulo__yaml_node *patch = ambulo__yaml_get(node, "patch");
-  if (patch && ambulo__yaml_get(node, "foot"))
-    (void)ambulo__yaml_error(patch, AMBULO_E_SCHEMA, NULL,
-                             "a contact of both a foot and a patch; expected one of them");
-  if (patch && ambulo__yaml_get(node, "mode"))
-    (void)ambulo__yaml_error(ambulo__yaml_get(node, "mode"), AMBULO_E_SCHEMA, NULL,
-                             "a mode of a patch; expected one with a foot only");
-  if (patch) {
-    contact->foot = -1;
-    contact->mode = AMBULO_CONTACT_PATCH;
-    contact->patch = read_patch(reader, patch);
-    return;
-  }
-  contact->foot = read_foot(reader, ambulo__yaml_require(node, "foot"));
-  int mode = ambulo__yaml_choice(ambulo__yaml_require(node, "mode"), modes, 3, 1);
-  contact->mode = (ambulo_contact_mode)(AMBULO_CONTACT_HEEL + mode);
-}
-
-static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                         ambulo_contact *contact) {
-  read_effector(reader, node, contact);
-  contact->from = ambulo__yaml_number(ambulo__yaml_require(node, "from"), 0.0);
-  contact->to = ambulo__yaml_number(ambulo__yaml_require(node, "to"), 0.0);
-  read_place(ambulo__yaml_require(node, "place"), contact->place);
-  read_normal(ambulo__yaml_get(node, "normal"), contact->foot >= 0, contact->normal);
-  contact->heading = ambulo__read_plain_angle(reader, ambulo__yaml_get(node, "heading"), 0.0);
-  ambulo__yaml_close(node);
-}
-
-static void read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_node *list) {
-  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
-    (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
-                             "'contacts' is not a list; expected items with foot, mode, from, to, "
-                             "place");
-    return;
-  }
-  int count = ambulo__yaml_items(list);
-  if (count > MOST_CONTACTS) {
-    (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL, "%d contacts; expected at most %d", count,
-                             MOST_CONTACTS);
-    return;
-  }
-  ambulo_contact *contacts = ambulo__reader_alloc(reader, (size_t)count, sizeof *contacts);
-  if (!contacts) return;
-  for (int i = 0; i < count; i++) {
-    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
-    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
-      read_contact(reader, item, &contacts[i]);
-    } else {
-      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
-                               "a contact is not a mapping; expected foot, mode, from, to, place");
-    }
-  }
-  reader->definition.contacts = contacts;
-  reader->definition.contact_count = count;
-}
+#include <string.h>
 
 /* ----------------------------------------------------------------------- gait */
 
@@ -257,7 +135,7 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   ambulo__gait_rule *rule = &keys->rule;
   ambulo_gait gait = ambulo_gait_default();
   gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
-  gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
+  gait.first_foot = ambulo__read_foot(reader, ambulo__yaml_require(section, "first_foot"));
   gait.forefoot = ambulo__yaml_choice(ambulo__yaml_get(section, "landing"), landings, 2, 0);
   gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
   rule->fixed = gait;
@@ -293,6 +171,147 @@ void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_no
                              "both 'gait' and 'contacts' are given; expected one of them");
     return;
   }
-  if (contacts) read_contacts(reader, contacts);
+  if (contacts) ambulo__read_contacts(reader, contacts);
   if (reader->gait) read_gait(reader, reader->gait);
+}
+
+/* ---------------------------------------------------------------------- phases */
+
+/* `gait.phases`: when heel, sole and toes come and
+ * go; and steps whose length is a function of the speed.
+ *
+ * What becomes of them is contact/gait_rule.h's. When the file says nothing, textbook timing of
+ * comfortable walking at every speed (foot flat at 8 %, heel rise after 38 %, toe-off at 62 %;
+ * Perry, Gait Analysis, 1992). With `by_speed` the stance is shorter the faster people walk, by 3.5
+ * % of the stride for 1 m/s (Kirtley, Whittle & Jefferson, J Biomed Eng 7:282-288, 1985), -0.145
+ * for 1 of u at 1.75 m; the heel's rise goes along.
+ */
+
+static const char *const names[AMBULO__PHASES] = {"heel_strike", "foot_flat", "heel_off",
+                                                  "toe_off"};
+static const char by_speed[] = "by_speed";
+static const double people[AMBULO__PHASES] = {0.0, 0.08, 0.38, 0.62};
+static const double people_slope[AMBULO__PHASES] = {0.0, 0.0, -0.145, -0.145};
+static const double least[AMBULO__PHASES] = {-0.49, -0.49, -0.49, -0.49};
+static const double most[AMBULO__PHASES] = {0.49, 1.0, 1.0, 1.0};
+
+/* {comfortable, slope}, both with people's as defaults, or the word alone */
+static void read_function(ambulo__gait_rule *rule, const ambulo__yaml_node *node, int i) {
+  double value = people[i], slope = people_slope[i];
+  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  if (is_mapping && !ambulo__yaml_get(node, "comfortable") && !ambulo__yaml_get(node, "slope"))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "a phase without a number; expected comfortable, slope, or both");
+  if (is_mapping) {
+    value = ambulo__yaml_number_in(ambulo__yaml_get(node, "comfortable"), least[i], most[i], value);
+    slope = ambulo__yaml_number_in(ambulo__yaml_get(node, "slope"), -10.0, 10.0, slope);
+    ambulo__yaml_close(node);
+  }
+  rule->phase_kind[i] = is_mapping ? AMBULO__PHASE_FUNCTION : AMBULO__PHASE_OF_PEOPLE;
+  rule->phase[i] = value;
+  rule->phase_slope[i] = slope;
+}
+
+static void read_phase(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  if (ambulo__yaml_is(node, AMBULO__YAML_SCALAR) &&
+      strcmp(ambulo__yaml_text(node), by_speed) == 0) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "phases: by_speed is of all four",
+                             "got 'by_speed' for one phase; expected a number, or {comfortable, "
+                             "slope}");
+  } else if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    rule->phase[i] = ambulo__yaml_number_in(node, least[i], most[i], people[i]);
+  } else if (ambulo__speed_unit(reader->model) > 0.0) {
+    read_function(rule, node, i);
+  } else {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_PROBLEM, "give the model a stature, or the phase a number",
+        "a phase by speed of a model without stature or gravity; expected a number");
+  }
+}
+
+static int is_by_speed(const ambulo__yaml_node *node) {
+  static const char *const words[] = {by_speed};
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
+  return ambulo__yaml_choice(node, words, 1, -1) == 0;
+}
+
+void ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  rule->length_kind = AMBULO__LENGTH_FUNCTION;
+  rule->length_comfortable =
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "comfortable"), 0.0, 5.0, 0.4);
+  rule->length_slope =
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "slope"), -10.0, 10.0, 0.0);
+  ambulo__yaml_close(node);
+  if (!(ambulo__speed_unit(reader->model) > 0.0) || isnan(rule->speed)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "a step length by speed, but %s; expected a length",
+                             isnan(rule->speed) ? "no gait.speed" : "no stature or no gravity");
+    return;
+  }
+  double number = ambulo__speed_number(reader->model, rule->speed);
+  double length =
+      rule->length_comfortable + rule->length_slope * (number - AMBULO__COMFORTABLE_NUMBER);
+  if (length > 0.0) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                           "steps of %.4g statures at a speed of %.4g sqrt(g H); expected a "
+                           "length above 0",
+                           length, number);
+}
+
+void ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  int all_by_speed = is_by_speed(node);
+  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  for (int i = 0; i < AMBULO__PHASES; i++) rule->phase[i] = people[i];
+  if (all_by_speed && !(ambulo__speed_unit(reader->model) > 0.0)) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_PROBLEM, NULL,
+        "phases by speed of a model without stature or gravity; expected four numbers");
+    return;
+  }
+  if (node && !all_by_speed && !is_mapping && !ambulo__yaml_is(node, AMBULO__YAML_SCALAR))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "'phases' is a list; expected keys, or by_speed");
+  for (int i = 0; i < AMBULO__PHASES; i++) {
+    if (all_by_speed)
+      read_function(rule, node, i);
+    else if (is_mapping)
+      read_phase(reader, ambulo__yaml_get(node, names[i]), i);
+  }
+  if (is_mapping) ambulo__yaml_close(node);
+}
+
+static int are_in_order(const double phase[AMBULO__PHASES]) {
+  return phase[0] <= phase[1] && phase[1] <= phase[2] && phase[2] <= phase[3] &&
+         phase[3] < phase[0] + 1.0;
+}
+
+void ambulo__check_phases(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          const ambulo_gait *gait) {
+  const double phase[AMBULO__PHASES] = {gait->heel_strike, gait->foot_flat, gait->heel_off,
+                                        gait->toe_off};
+  double number = ambulo__speed_number(reader->model, ambulo__gait_speed(gait));
+  int moves = 0, outside = 0;
+  if (!node) return;
+  for (int i = 0; i < AMBULO__PHASES; i++) {
+    if (reader->keys.rule.phase_kind[i] == AMBULO__PHASE_SHARE) continue;
+    moves = 1;
+    if (phase[i] >= least[i] && phase[i] <= most[i]) continue;
+    const ambulo__yaml_node *own =
+        ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_get(node, names[i]) : node;
+    outside = 1;
+    (void)ambulo__yaml_error(own, AMBULO_E_PROBLEM, NULL,
+                             "%s is at %.4g of the stride at a speed of %.4g sqrt(g H); expected "
+                             "%.4g to %.4g",
+                             names[i], phase[i], number, least[i], most[i]);
+  }
+  if (outside || are_in_order(phase)) return;
+  char hint[80];
+  (void)snprintf(hint, sizeof hint, "phases go with the speed, here %.4g sqrt(g H)", number);
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, moves ? hint : NULL,
+                           "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
+                           "foot_flat <= heel_off <= toe_off < heel_strike + 1",
+                           phase[0], phase[1], phase[2], phase[3]);
 }
