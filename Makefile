@@ -212,7 +212,8 @@ $(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a $(TRACER)
 # Tests of a release are compiled at -O1 and linked without what debuggers read: the library is what is
 # fast, and four hundred programs are compiled and linked in half of the time.
 TEST_MODE := $(if $(filter release,$(VARIANT)),-O1)
-TEST_LINK := $(if $(filter release,$(VARIANT)),-Wl,-S)
+comma := ,
+TEST_LINK := $(if $(filter release,$(VARIANT)),-Wl$(comma)-S)
 
 # the parts of the program are linked into its tests, its main() is not
 CLI_PARTS := $(filter-out %/main.o,$(CLI_OBJECTS))

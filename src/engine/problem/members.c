@@ -109,7 +109,7 @@ static const ambulo__member ground_reaction[] = {
 TABLE("ground_reaction", ground_reaction);
 #undef OF
 
-static const char *const modes[] = {"heel", "flat", "toe", "patch"};
+static const char *const modes[] = {"heel", "flat", "toe"}; /* of feet; patches have one */
 #define OF ambulo_contact
 static const ambulo__member contact[] = {
     {INDEX("foot", foot), APART},
