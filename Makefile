@@ -78,7 +78,9 @@ ifeq ($(shell uname -s),Darwin)
   SHARED := -dynamiclib -install_name @rpath/$(call shared_name,.$(SOVERSION))
 else
   shared_name = libambulo.so$(1)
-  SHARED := -shared -Wl,-soname,libambulo.so.$(SOVERSION) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
+  # the engine's functions are of version AMBULO_0, those of the tools of AMBULO_TOOLS_0
+  VERSIONS = $(OUT)/obj/libambulo.map
+  SHARED = -shared -Wl,-soname,libambulo.so.$(SOVERSION) -Wl,--version-script=$(VERSIONS) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
 endif
 DEPENDENCIES := nlopt yaml-0.1
 DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflags))
@@ -201,7 +203,10 @@ $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
 	$(call quiet,AR $@)$(AR) rcs $@ $(LIB_OBJECTS)
 
-$(SHARED_LIBRARY): $(LIB_OBJECTS) $(OUT)/obj/sources
+$(OUT)/obj/libambulo.map: $(HEADERS) .setup/symbols.sh
+	@mkdir -p $(@D); .setup/symbols.sh map > $@
+
+$(SHARED_LIBRARY): $(LIB_OBJECTS) $(OUT)/obj/sources $(VERSIONS)
 	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
 # one variant reports which functions it enters

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# lint_symbols.sh LIBRARY.so LIBRARY.a: exported names are public ones, no name leaves the
-# archive without the prefix, nothing in it is writable (constants with addresses in them,
-# which the loader fills in, are not: section .data.rel.ro).
+# lint_symbols.sh LIBRARY.so LIBRARY.a: what is exported is what the public headers declare, each
+# function in the version of its headers (.setup/symbols.sh); the stable ones are at most 120. No
+# name leaves the archive without the prefix, nothing in it is writable (constants with addresses in
+# them, which the loader fills in, are not: section .data.rel.ro).
 set -u
+most=120
 faults=0
 report() {
   [ -z "$2" ] && return
@@ -10,16 +12,13 @@ report() {
   sed 's/^/  /' <<<"$2"
   faults=1
 }
-exported=$(nm -D --defined-only "$1" | awk '{ print $NF }' | sed 's/@.*//')
-report "exported by $1, but not ambulo_*" \
-  "$(grep -vE '^(ambulo_[a-z0-9]|_init$|_fini$|_edata$|_end$|__bss_start$)' <<<"$exported")"
-report "private symbols (ambulo__*) exported by $1" "$(grep '^ambulo__' <<<"$exported")"
-
-# functions of the public headers that the library does not define
-declared=$(cat include/ambulo/*.h include/ambulo/tools/*.h | tr '\n' ' ' | sed 's#/\*[^*]*\*\+\([^/*][^*]*\*\+\)*/##g' |
-  grep -oE 'AMBULO_API [^;]*;' | sed -E 's/.*[ *](ambulo_[a-z0-9_]+)\(.*/\1/' | grep '^ambulo_')
-report "declared in include/ambulo, but not exported" \
-  "$(comm -23 <(sort -u <<<"$declared") <(sort -u <<<"$exported"))"
+exported=$(nm -D --defined-only --with-symbol-versions "$1" | awk '$2 != "A" { print $NF }' | LC_ALL=C sort)
+declared=$({ .setup/symbols.sh stable | sed 's/$/@@AMBULO_0/'; .setup/symbols.sh tools | sed 's/$/@@AMBULO_TOOLS_0/'; } |
+  LC_ALL=C sort)
+report "exported by $1, but not declared in include/ambulo" "$(LC_ALL=C comm -13 <(echo "$declared") <(echo "$exported"))"
+report "declared in include/ambulo, but not exported" "$(LC_ALL=C comm -23 <(echo "$declared") <(echo "$exported"))"
+stable=$(.setup/symbols.sh stable | wc -l)
+[ "$stable" -le "$most" ] || report 'include/ambulo/*.h' "$stable stable functions; expected at most $most"
 
 report "global names without the prefix in $2" \
   "$(nm -A -g --defined-only "$2" | awk '$NF !~ /^ambulo_/ { print $1, $NF }')"
@@ -31,5 +30,5 @@ report "writable variables in $2" \
           if (($i ~ /^\.(data|bss|tdata|tbss)/ && $i !~ /^\.data\.rel\.ro/) || $i == "*COM*")
             print object, $NF
       }')"
-[ "$faults" = 0 ] && echo "$(wc -l <<<"$exported") exported symbols, all ambulo_*; no writable variables"
+[ "$faults" = 0 ] && echo "$stable stable functions, $(($(wc -l <<<"$exported") - stable)) of the tools; no writable variables"
 exit "$faults"

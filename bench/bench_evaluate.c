@@ -4,6 +4,7 @@
  * gradient of a weighted sum (reverse sweep), and all Jacobians, each at a fresh point so that
  * nothing is cached; the time of all three per node, and the power of N it grows with. Then, at N =
  * 72, the same with families of rows switched off. */
+#include "mechanics/kernels.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 #include "problem/nlp.h"
@@ -144,7 +145,7 @@ static void report_rows(bench_table *table) {
 
 int main(void) {
   bench_table table;
-  bench_open(&table, ambulo_instruction_set(), "evaluate");
+  bench_open(&table, ambulo__instruction_set(), "evaluate");
   report_nodes(&table);
   report_rows(&table);
   bench_close(&table);

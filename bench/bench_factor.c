@@ -10,6 +10,7 @@
  *
  * Also the forward solves of 3 d border columns, and the Gram matrix of a node: 2 d rows of which
  * half is zero, on splines of degree 3 (linear/spread.h; LAPACK: dtrsm with dgemm, and dsyrk). */
+#include "mechanics/kernels.h"
 #include "bench_csv.h"
 #include "linear/spread.h"
 
@@ -131,7 +132,7 @@ int main(void) {
   enum { count = sizeof sizes / sizeof *sizes };
   double d[count], n[count], factor[2][count], solve[2][count];
   static bench_table table;
-  bench_open(&table, ambulo_instruction_set(), "factor");
+  bench_open(&table, ambulo__instruction_set(), "factor");
   for (int i = 0; i < count; i++) {
     times by_size = report(&table, sizes[i], 72), by_grid = report(&table, 18, grids[i]);
     d[i] = sizes[i];

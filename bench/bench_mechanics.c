@@ -11,6 +11,7 @@
  * the set in use also the batch calls of ambulo/mechanics.h, which take and return one node after
  * the other.
  */
+#include "mechanics/lagrangian.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 #include "mechanics/plan.h"
@@ -156,15 +157,15 @@ static void rig_free(rig *r) {
 static double measure_reference(const rig *r) {
   int d = ambulo__plan_coordinates(r->plan);
   double *state = doubles(4 * (size_t)d), times[repeats], wrench[6];
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(r->model));
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(r->model));
   if (!scratch) exit(1);
   for (int i = 0; i < 3 * d; i++) state[i] = r->q[i];
   for (int t = 0; t < repeats; t++) {
     double start = bench_seconds();
     for (int i = 0; i < 50; i++) {
       const ambulo_outputs out = {.size = sizeof out, .tau = state + 3 * d, .wrench = wrench};
-      if (ambulo_lagrangian_inverse_dynamics(r->model, state, state + d, state + 2 * d, &out,
-                                             scratch) != AMBULO_OK)
+      if (ambulo__lagrangian_inverse_dynamics(r->model, state, state + d, state + 2 * d, &out,
+                                              scratch) != AMBULO_OK)
         exit(1);
     }
     times[t] = 1e9 * (bench_seconds() - start) / 50;

@@ -6,6 +6,7 @@
  * included): processor seconds, where they go, evaluations, objective; the power of N that the
  * time grows with; then the small problems by each algorithm, with and without presolve. A case
  * that ends without a feasible point is printed as such, and its time is not recorded. */
+#include "mechanics/kernels.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 
@@ -115,7 +116,7 @@ int main(int argc, char **argv) {
     for (int i = 1; i < argc; i++) (void)solve_yardstick(&table, atoi(argv[i]));
     return 0;
   }
-  bench_open(&table, ambulo_instruction_set(), "solve");
+  bench_open(&table, ambulo__instruction_set(), "solve");
   report_yardstick(&table);
   report_algorithms(&table);
   bench_close(&table);

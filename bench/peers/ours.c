@@ -8,6 +8,7 @@
  * frames along the world's axes, the form that is cheapest for them. Where a joint turns about a
  * negative axis, its coordinate is reversed for the peers. Times are of the model without its
  * named points, as the peers have none, and once with them. */
+#include "mechanics/kernels.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 #include "mechanics/plan.h"
@@ -269,7 +270,7 @@ int main(int argc, char **argv) {
   if (argc == 2 && strcmp(argv[1], "folder") == 0) {
     char machine[128];
     bench_machine(machine, sizeof machine);
-    printf("%s_%s\n", machine, ambulo_instruction_set());
+    printf("%s_%s\n", machine, ambulo__instruction_set());
     return 0;
   }
   if (argc < 3 || ambulo_model_load(argv[2], NULL, NULL, NULL, &model)) {

@@ -94,15 +94,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_pro
                                                                 const double *times,
                                                                 const ambulo_motion *motion);
 
-/* What is set about the ground's force. */
-AMBULO_API const ambulo_ground_reaction *
-ambulo_problem_ground_reaction(const ambulo_problem *problem);
-/* Which contact of `foot` is active at time t: its index, or -1. */
-AMBULO_API int ambulo_problem_contact_at(const ambulo_problem *problem, int foot, double time);
-/* Which contact of `patch` is. */
-AMBULO_API int ambulo_problem_patch_contact_at(const ambulo_problem *problem, int patch,
-                                               double time);
-
 /* --------------------------------------------------------- derivative check */
 
 /* Worst disagreement between the hand-derived gradients and central differences,

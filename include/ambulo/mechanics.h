@@ -7,11 +7,8 @@
  *                         force F (N), world axes: what the surroundings must apply
  *                         to the body, F = sum m (a - g)      (seed Eqs. 15'-16')
  *   points   [n][p][3]    positions of the model's points, world frame, m
- * No external force acts but gravity. Two independent routes are provided:
- *   - ambulo_mechanics_*  spatial recursion in world coordinates, eight time nodes
- *     at a time; with hand-derived derivatives;
- *   - ambulo_lagrangian_* the seed's transformation-matrix recursion, Eqs. (4)-(12),
- *     written plainly from the page; the oracle of the tests.
+ * No external force acts but gravity. The recursion is in world coordinates, eight time nodes
+ * at a time, with hand-derived derivatives.
  *
  * A workspace holds scratch; use one per thread. The model is only read.
  */
@@ -78,31 +75,6 @@ AMBULO_DEFAULT(ambulo_jacobians); /* NULL */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_mechanics_jacobians(ambulo_mechanics *mechanics, int nodes, const double *q,
                            const double *qd, const double *qdd, const ambulo_jacobians *jacobians);
-
-/* Instruction set the kernels run on: "avx512", "avx2", "baseline", or "scalar". The best that the
- * processor has, or what AMBULO_ISA in the environment names. */
-AMBULO_API const char *ambulo_instruction_set(void);
-
-/* ------------------------------------------------------- reference recursion */
-
-/* The seed's recursion for one state: A, B, C matrices
- * forward (Eqs. 4-6), D and E backward (Eqs. 11-12), tau by Eq. (10). Allocates
- * nothing; `scratch` has ambulo_lagrangian_scratch_size(model) bytes, aligned for
- * double. The complex form takes interleaved (re, im) pairs everywhere, which is
- * the memory layout of C's double complex, and serves complex-step derivatives. */
-AMBULO_API size_t ambulo_lagrangian_scratch_size(const ambulo_model *model);
-AMBULO_NODISCARD AMBULO_API ambulo_status
-ambulo_lagrangian_inverse_dynamics(const ambulo_model *model, const double *q, const double *qd,
-                                   const double *qdd, const ambulo_outputs *outputs, void *scratch);
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_inverse_dynamics_complex(
-    const ambulo_model *model, const double *q, const double *qd, const double *qdd,
-    const ambulo_outputs *outputs, void *scratch);
-
-/* Kinetic and potential energy of one state (J); potential is zero at the world
- * origin. Energy balance: dE/dt = qd . tau. */
-AMBULO_NODISCARD AMBULO_API ambulo_status
-ambulo_lagrangian_energy(const ambulo_model *model, const double *q, const double *qd,
-                         double *kinetic, double *potential, void *scratch);
 
 #ifdef __cplusplus
 }

@@ -234,8 +234,6 @@ AMBULO_API int ambulo_model_find_link(const ambulo_model *model, const char *nam
 AMBULO_API int ambulo_model_find_coordinate(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_point(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_foot(const ambulo_model *model, const char *name);
-AMBULO_API int ambulo_model_find_patch(const ambulo_model *model, const char *name);
-AMBULO_API int ambulo_model_find_capsule(const ambulo_model *model, const char *name);
 AMBULO_API double ambulo_model_mass(const ambulo_model *model);           /* kg, whole body */
 AMBULO_API double ambulo_model_stature(const ambulo_model *model);        /* m; 0 if unknown */
 AMBULO_API const double *ambulo_model_gravity(const ambulo_model *model); /* [3], m/s^2 */

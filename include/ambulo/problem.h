@@ -256,14 +256,6 @@ static inline ambulo_problem_definition ambulo_problem_definition_default(void) 
   return usual;
 }
 #endif
-/* The time nodes that a problem of this definition has, times[N + 1], s: where references of
- * AMBULO_TRACKING are asked for. Of the definition it reads the model, the grid of time, the
- * contacts, the clearance and the ends. Errors: E_ARGUMENT (a definition that did not come from
- * ambulo_problem_definition_default(), no model, no duration, no intervals), E_PROBLEM (more phases
- * than there are intervals for), E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status
-ambulo_node_times(const ambulo_problem_definition *definition, double *times);
-
 /* Checks the definition and builds the problem. Contradictions that need no solve
  * are refused by name, time and unit: footholds out of reach, no support at some
  * time, an empty support polygon, overlapping contacts, more equalities than

@@ -64,9 +64,6 @@ typedef enum ambulo_ending {
 #undef AMBULO_ENDING_ENUM
 } ambulo_ending;
 
-AMBULO_API const char *ambulo_ending_name(ambulo_ending ending);
-AMBULO_API const char *ambulo_ending_text(ambulo_ending ending);
-
 typedef enum ambulo_algorithm {
   AMBULO_AUTO = 0, /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
   AMBULO_SLSQP,    /* NLopt's SLSQP */

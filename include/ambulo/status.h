@@ -156,7 +156,6 @@ typedef struct ambulo_diagnostics ambulo_diagnostics;
 AMBULO_API ambulo_diagnostics *ambulo_diagnostics_create(const ambulo_allocator *allocator);
 /* Accepts NULL. */
 AMBULO_API void ambulo_diagnostics_free(ambulo_diagnostics *diagnostics);
-AMBULO_API void ambulo_diagnostics_clear(ambulo_diagnostics *diagnostics);
 /* Number of messages kept; number of errors found, kept or not. NULL counts 0. */
 AMBULO_API size_t ambulo_diagnostics_count(const ambulo_diagnostics *diagnostics);
 AMBULO_API size_t ambulo_diagnostics_error_count(const ambulo_diagnostics *diagnostics);

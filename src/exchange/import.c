@@ -14,14 +14,6 @@
 #include "formats/output_check.h"
 #include "exchange/formats.h"
 
-int ambulo_import_available(void) {
-#ifdef AMBULO_HAS_EXPAT
-  return 1;
-#else
-  return 0;
-#endif
-}
-
 static int options_are_sane(const ambulo_import_options *o) {
   return o->pose_count >= 0 && o->foot_count >= 0 && o->heel_count >= 0 && o->toe_count >= 0 &&
          (o->pose || !o->pose_count) && (o->feet || !o->foot_count) &&

@@ -299,14 +299,3 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
   clear(&v);
   return ambulo__conclude(diagnostics, errors, status, motion);
 }
-
-ambulo_status ambulo_inverse_dynamics_file(const ambulo_model *model, const char *motion,
-                                           const char *output, const ambulo_allocator *allocator,
-                                           ambulo_diagnostics *diagnostics, char **text) {
-  ambulo_inverse_options options = ambulo_inverse_options_default();
-  options.without_forces = 1;
-  ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
-  outputs.text = text;
-  return ambulo_inverse_dynamics_motion(model, motion, output, &options, allocator, diagnostics,
-                                        &outputs);
-}

@@ -2,6 +2,7 @@
  *
  * Schema "ambulo-summary/1"; every quantity in SI units and radians. A row is named by
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
+#include "solver/verdict.h"
 #include "show/summary_json.h"
 
 #include "ambulo/parameters.h"
@@ -339,7 +340,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json_text(json, "problem", ambulo_problem_name(problem));
   ambulo__json_text(json, "model", ambulo_model_name(ambulo_problem_model(problem)));
   ambulo__json_text(json, "verdict", ambulo_verdict_name(verdict));
-  ambulo__json_text(json, "ended_by", ambulo_ending_name(ambulo_result_ending_code(result)));
+  ambulo__json_text(json, "ended_by", ambulo__ending_name(ambulo_result_ending_code(result)));
   ambulo__json_text(json, "ending", ambulo_result_ending(result));
   ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
   body(json, ambulo_problem_model(problem));

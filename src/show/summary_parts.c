@@ -1,5 +1,6 @@
 /* show/summary_parts.c - the parts of summary.json: versions, clearances, devices, work,
  * convergence, loads in hands, ground reaction. */
+#include "mechanics/kernels.h"
 #include "show/summary_json.h"
 
 #include "ambulo/tools/tools.h"
@@ -35,7 +36,7 @@ void ambulo_versions_get(ambulo_versions *versions) {
   snprintf(versions->libyaml, sizeof versions->libyaml, "%d.%d.%d", major, minor, patch);
   blas_version(versions->blas, sizeof versions->blas);
   snprintf(versions->instruction_set, sizeof versions->instruction_set, "%s",
-           ambulo_instruction_set());
+           ambulo__instruction_set());
 }
 
 enum { PER_INTERVAL = 10 };

@@ -4,6 +4,7 @@
  * Numbers are rounded to nine digits, so that what is solved is exactly what fitted.yaml and
  * fit.json say. In the file, scalars are found by the line and column that the document remembers,
  * and must be there what the document says. */
+#include "base/diagnostics.h"
 #include "ambulo/tools/load.h"
 #include "base/numtext.h"
 #include "formats/file_steps.h"
@@ -132,7 +133,7 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
       const ambulo__yaml_node *node = ambulo__yaml_item(keys, k);
       char lead[200];
       *value = (double)NAN;
-      ambulo_diagnostics_clear(list);
+      ambulo__diagnostics_clear(list);
       int found = value_at(document, p->key[k], list, value);
       (void)snprintf(lead, sizeof lead, "key '%.120s' of the problem", p->key[k]);
       ambulo_status told = found || !c ? AMBULO_OK : retell(node, AMBULO_E_SCHEMA, lead, list);

@@ -1,4 +1,5 @@
 /* study/gather.c - see gather.h. */
+#include "base/diagnostics.h"
 #include "study/gather.h"
 
 #include <string.h>
@@ -21,7 +22,7 @@ static ambulo_status take_outputs(gatherer *g, const char *id, ambulo__finding *
   const ambulo__listing *l = g->listing;
   if (*finding != AMBULO__FOUND_INTACT || l->outputs == 0) return AMBULO_OK;
   if (!ambulo__case_files_have(&g->record.files, summary)) return AMBULO_OK;
-  ambulo_diagnostics_clear(g->reasons);
+  ambulo__diagnostics_clear(g->reasons);
   ambulo_status status = ambulo__outputs_of(g->directory, id, l->output, l->outputs, &l->allocator,
                                             g->reasons, g->value);
   if (!status) return AMBULO_OK;

@@ -212,9 +212,6 @@ static void files_need_names(void **state) {
   REFUSED(ambulo_solution_load(NULL, o->problem, NULL, NULL, o->out));
   REFUSED(ambulo_solution_load("x", NULL, NULL, NULL, o->out));
   REFUSED(ambulo_solution_start("x", o->problem, NULL, NULL, NULL));
-  REFUSED(ambulo_inverse_dynamics_file(o->model, NULL, NULL, NULL, NULL, &text));
-  REFUSED(ambulo_inverse_dynamics_file(NULL, "x", NULL, NULL, NULL, &text));
-  REFUSED(ambulo_inverse_dynamics_file(o->model, "x", NULL, NULL, NULL, NULL));
   REFUSED(ambulo_inverse_dynamics_motion(NULL, "x", "y", NULL, NULL, NULL, NULL));
   REFUSED(ambulo_inverse_dynamics_motion(o->model, NULL, "y", NULL, NULL, NULL, NULL));
   REFUSED(ambulo_inverse_dynamics_motion(o->model, "x", NULL, NULL, NULL, NULL, NULL));

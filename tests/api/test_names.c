@@ -1,5 +1,6 @@
 /* Empty names of files and folders: told at once, with what the name is of, before anything is read
  * or written; an unset variable of a script is the usual cause. */
+#include "base/diagnostics.h"
 #include "support/arm.h"
 #include "ambulo/tools/tools.h"
 #include "support/messages.h"
@@ -34,7 +35,7 @@ static void refused(objects *o, ambulo_status status, const char *says) {
   assert_int_equal(status, AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_diagnostics_count(o->list), 1);
   assert_message(o->list, 0, says);
-  ambulo_diagnostics_clear(o->list);
+  ambulo__diagnostics_clear(o->list);
 }
 
 static void files_that_are_read(void **state) {
@@ -54,7 +55,7 @@ static void files_that_are_read(void **state) {
   refused(&o, ambulo_sweep_load("", NULL, o.list, &sweep), says);
   refused(&o, ambulo_solution_load("", o.problem, NULL, o.list, o.x), says);
   refused(&o, ambulo_solution_start("", o.problem, NULL, o.list, o.x), says);
-  refused(&o, ambulo_inverse_dynamics_file(o.model, "", NULL, NULL, o.list, &text),
+  refused(&o, ambulo_inverse_dynamics_motion(o.model, "", "x", NULL, NULL, o.list, NULL),
           "the name of the motion is empty");
   ambulo_inverse_options nameless = ambulo_inverse_options_default();
   ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
@@ -102,7 +103,7 @@ static void what_is_written(void **state) {
   const char *folder = "the name of the folder to write is empty; expected a path";
   refused(&o, ambulo_report_check("", NULL, o.list), folder);
   refused(&o, ambulo_report_write(o.problem, o.result, "", NULL, NULL, o.list), folder);
-  refused(&o, ambulo_inverse_dynamics_file(o.model, motion, "", NULL, o.list, NULL),
+  refused(&o, ambulo_inverse_dynamics_motion(o.model, motion, "", NULL, NULL, o.list, NULL),
           "the name of the output is empty");
   refused(&o, ambulo_batch_run(sweep, "", NULL, NULL, o.list, NULL),
           "the name of the batch folder is empty");

@@ -70,7 +70,7 @@ static void twenty_errors_are_kept_and_all_counted(void **state) {
   assert_int_equal(ambulo_diagnostics_error_count(list), 30);
   assert_int_equal(ambulo_diagnostics_count(list), warnings + 20);
   expect_text(list, warnings + 19, "ambulo: error[E_MODEL]: error 19");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   assert_int_equal(ambulo_diagnostics_count(list), 0);
   assert_int_equal(ambulo_diagnostics_error_count(list), 0);
   ambulo_diagnostics_free(list);
@@ -80,7 +80,7 @@ static void no_list_and_no_memory_keep_the_status(void **state) {
   (void)state;
   assert_int_equal(ambulo__error(NULL, AMBULO_E_IO, NOWHERE, NULL, "x"), AMBULO_E_IO);
   assert_int_equal(ambulo_diagnostics_count(NULL), 0);
-  ambulo_diagnostics_clear(NULL);
+  ambulo__diagnostics_clear(NULL);
   ambulo_diagnostics_free(NULL);
   ambulo__place here = {"file", 1, 1, "path"};
   for (long k = 0;; k++) {
@@ -115,7 +115,7 @@ static void without_memory_an_error_is_still_told(void **state) {
       ambulo_diagnostics_format(list, 1, text, sizeof text);
       assert_non_null(strstr(text, "walk.yaml:3:4: error[E_MEMORY]: out of memory"));
       assert_int_equal(ambulo_diagnostics_error_count(list), 3);
-      ambulo_diagnostics_clear(list);
+      ambulo__diagnostics_clear(list);
       memory.fail_at = 0; /* what was kept without memory is given back for the next one */
       memory.only_once = 0;
       ambulo__error(list, AMBULO_E_MEMORY, here, NULL, "afterwards");

@@ -1,5 +1,7 @@
 /* Capsules, obstacles and reaches of a definition made in C: every number that counts, and what
- * mirrored ends ask of them. The keys of files are those of tests/definitions/test_problem_constraints.c. */
+ * mirrored ends ask of them. The keys of files are those of
+ * tests/definitions/test_problem_constraints.c. */
+#include "support/find_capsule.h"
 #include "contact/collision.h"
 #include "ambulo/tools/load.h"
 #include "model/neutral_pose.h"
@@ -22,7 +24,7 @@ static int point(const fixture *f, const char *name) {
 }
 
 static ambulo_capsule *capsule(const fixture *f, const char *name) {
-  int index = ambulo_model_find_capsule(f->model, name);
+  int index = find_capsule(f->model, name);
   assert_true(index >= 0);
   return &f->model->capsules[index];
 }
@@ -34,8 +36,8 @@ static void open_fixture(fixture *f) {
   f->definition = ambulo_problem_definition_default();
   f->definition.model = f->model;
   f->definition.duration = 1.0;
-  f->pair = (ambulo_capsule_pair){ambulo_model_find_capsule(f->model, "shank_l"),
-                                  ambulo_model_find_capsule(f->model, "shank_r")};
+  f->pair =
+      (ambulo_capsule_pair){find_capsule(f->model, "shank_l"), find_capsule(f->model, "shank_r")};
   f->definition.collision =
       (ambulo_collision){AMBULO_COLLISION_PAIRS, &f->pair, .pair_count = 1, .margin = 0.01};
   f->fence = (ambulo_obstacle){.shape = AMBULO_OBSTACLE_BOX,
@@ -158,8 +160,8 @@ static void mirrored_capsules_are_images(void **state) {
         c->from[i] = c->to[i];
         c->to[i] = from;
       });
-  MIRRORED(no_image, f.pair.one = ambulo_model_find_capsule(f.model, "foot_l");
-           f.pair.other = ambulo_model_find_capsule(f.model, "foot_r");
+  MIRRORED(no_image, f.pair.one = find_capsule(f.model, "foot_l");
+           f.pair.other = find_capsule(f.model, "foot_r");
            ambulo_capsule *foot = capsule(&f, "foot_l"); int link = foot->link;
            move_to_the_shank(&f, &foot->link, foot->from); move_to_the_shank(&f, &link, foot->to));
   MIRRORED("obstacle 'fence' stands once", FENCED);

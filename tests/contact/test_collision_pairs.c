@@ -1,5 +1,6 @@
 /* Which capsules of a shipped body are kept apart: neighbours, pairs that overlap as it stands and
  * pairs that never meet are not; the mirror image of a pair is where one step stands for both. */
+#include "support/find_capsule.h"
 #include "ambulo/tools/tools.h"
 #include "contact/collision.h"
 #include "support/test.h"
@@ -30,7 +31,7 @@ static ambulo_problem_definition definition_of(ambulo_collision_mode mode) {
 }
 
 static int has(const ambulo_capsule_pair *pairs, int count, const char *one, const char *other) {
-  int a = ambulo_model_find_capsule(model, one), b = ambulo_model_find_capsule(model, other);
+  int a = find_capsule(model, one), b = find_capsule(model, other);
   int found = 0;
   assert_true(a >= 0 && b >= 0);
   for (int k = 0; k < count; k++)
@@ -86,9 +87,9 @@ static void named_pairs_are_those_and_their_images(void **state) {
   (void)state;
   ambulo_problem_definition d = definition_of(AMBULO_COLLISION_PAIRS);
   const ambulo_capsule_pair named[3] = {
-      {ambulo_model_find_capsule(model, "shank_l"), ambulo_model_find_capsule(model, "thigh_r")},
-      {ambulo_model_find_capsule(model, "thigh_r"), ambulo_model_find_capsule(model, "shank_l")},
-      {ambulo_model_find_capsule(model, "foot_r"), ambulo_model_find_capsule(model, "foot_l")}};
+      {find_capsule(model, "shank_l"), find_capsule(model, "thigh_r")},
+      {find_capsule(model, "thigh_r"), find_capsule(model, "shank_l")},
+      {find_capsule(model, "foot_r"), find_capsule(model, "foot_l")}};
   ambulo__pairs p;
   d.collision.pairs = named;
   d.collision.pair_count = 3;
@@ -108,16 +109,15 @@ static void named_pairs_are_those_and_their_images(void **state) {
 /* shanks 0.17 m apart, of 0.05 m each; thighs of 0.07 */
 static void gaps_as_the_body_stands(void **state) {
   (void)state;
-  ambulo_capsule_pair pair = {ambulo_model_find_capsule(model, "shank_l"),
-                              ambulo_model_find_capsule(model, "shank_r")};
+  ambulo_capsule_pair pair = {find_capsule(model, "shank_l"), find_capsule(model, "shank_r")};
   double gap = 0.0;
   assert_int_equal(ambulo__rest_gap(model, pair, &own, &gap), AMBULO_OK);
   assert_close(gap, 0.07, 1e-4);
-  pair.one = ambulo_model_find_capsule(model, "thigh_l");
-  pair.other = ambulo_model_find_capsule(model, "thigh_r");
+  pair.one = find_capsule(model, "thigh_l");
+  pair.other = find_capsule(model, "thigh_r");
   assert_int_equal(ambulo__rest_gap(model, pair, &own, &gap), AMBULO_OK);
   assert_close(gap, 0.03, 1e-4);
-  pair.one = ambulo_model_find_capsule(model, "trunk");
+  pair.one = find_capsule(model, "trunk");
   assert_int_equal(ambulo__rest_gap(model, pair, &own, &gap), AMBULO_OK);
   assert_true(gap < 0.0);
 }

@@ -209,7 +209,8 @@ static void the_walk_has_nodes_at_its_events(void **state) {
   for (int i = 0; i < 5; i++)
     assert_close(ambulo__basis_breakpoints(p->basis)[knot[i]], knots[i], 1e-12);
   double times[26];
-  assert_int_equal(ambulo_node_times(&p->definition, times), AMBULO_OK);
+  ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  assert_int_equal(ambulo__node_times(&p->definition, &a, NULL, times), AMBULO_OK);
   for (int k = 0; k < 26; k++) {
     assert_true(times[k] == p->times[k]);
     assert_true(ambulo_problem_node_time(p, k) == times[k]);
@@ -273,14 +274,11 @@ static void contacts_need_not_be_legal(void **state) {
   d.contacts = odd;
   d.contact_count = 3;
   d.grid = AMBULO_GRID_EVENTS;
-  assert_int_equal(ambulo_node_times(&d, times), AMBULO_OK);
+  ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  assert_int_equal(ambulo__node_times(&d, &a, NULL, times), AMBULO_OK);
   for (int k = 0; k < 25; k++) assert_true(times[k + 1] > times[k]);
   d.intervals = 5;
-  assert_int_equal(ambulo_node_times(&d, times), AMBULO_E_PROBLEM);
-  d.size = 0;
-  assert_int_equal(ambulo_node_times(&d, times), AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_node_times(NULL, times), AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_node_times(&p->definition, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo__node_times(&d, &a, NULL, times), AMBULO_E_PROBLEM);
   ambulo_problem_free(p);
 }
 

@@ -1,4 +1,5 @@
 /* ZMP rows against a force applied at a known point of the ground: M = p x F. */
+#include "base/diagnostics.h"
 #include "support/row_fixture.h"
 
 static const double body_weight = 72.0 * 9.81;
@@ -126,7 +127,7 @@ static void empty_regions_are_refused(void **state) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, list), AMBULO_E_PROBLEM);
   expect_message(list, "the support polygon is empty at t = 0.75 s (right on its toes, margin 0 m");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   f.definition.support = AMBULO_SUPPORT_BOX;
   f.definition.support_margin = 0.04;
   assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, list), AMBULO_E_PROBLEM);

@@ -1,4 +1,6 @@
 /* `constraints:` and `ends:`. */
+#include "support/find_capsule.h"
+#include "base/diagnostics.h"
 #include "definitions/problem_text.h"
 
 #define TIME "objective: none\ntime: {duration: 1, intervals: 4}\n"
@@ -173,7 +175,7 @@ static void free_ends_take_no_rise_and_no_order(void **state) {
                       "'order' has no effect with free ends; it belongs to kind periodic or "
                       "mirrored");
   ambulo_problem_free(p);
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   assert_int_equal(load_text(WALKER TIME "ends: {kind: cyclic, rise: 0.17, order: 2}\n", list, &p),
                    AMBULO_E_SCHEMA);
   assert_int_equal(ambulo_diagnostics_count(list), 1);
@@ -240,7 +242,7 @@ static void what_is_read(void **state) {
   assert_close(bar->radius, 0.02, 0.0);
   assert_close(bar->margin, 0.05, 0.0);
   assert_int_equal(bar->capsule_count, 1);
-  assert_int_equal(bar->capsules[0], ambulo_model_find_capsule(p->model, "head"));
+  assert_int_equal(bar->capsules[0], find_capsule(p->model, "head"));
   assert_null(ambulo_problem_obstacle(p, 2));
   assert_close(d->collision.margin, 0.02, 0.0);
   assert_int_equal(ambulo_problem_pairs(p, 0, NULL), 1);

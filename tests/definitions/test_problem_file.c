@@ -1,4 +1,5 @@
 /* Problem files as a whole: headers, overrides, positions, damage, memory. */
+#include "base/diagnostics.h"
 #include "ambulo/tools/load.h"
 #include "ambulo/tools/tools.h"
 #include "definitions/problem_text.h"
@@ -247,7 +248,7 @@ static void test_neither(void **state) {
   scratch_write(path, "ambulo: 1\nkind: modell\n");
   assert_int_equal(ambulo_file_kind_of(path, NULL, list, &kind), AMBULO_E_SCHEMA);
   assert_message(list, 0, "file.yaml:2:7: error[E_SCHEMA]");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   scratch_write(path, "ambulo: 1\n");
   assert_int_equal(ambulo_file_kind_of(path, NULL, list, &kind), AMBULO_E_SCHEMA);
   assert_message(list, 0, "'kind'");

@@ -1,4 +1,6 @@
 /* `gait:` and `contacts:`. */
+#include "support/contact_index.h"
+#include "model/model.h"
 #include "ambulo/tools/load.h"
 #include "definitions/problem_text.h"
 
@@ -38,7 +40,7 @@ static void step_times_are_completed(void **state) {
     assert_close(ambulo_problem_duration(p), 1.0, 1e-14);
     assert_close(p->definition.travel, 1.2, 1e-14);
     /* stride 1 s; default phases 0, 0.08, 0.38, 0.62: left flat from 0.08 s to 0.38 s */
-    int contact = ambulo_problem_contact_at(p, ambulo_model_find_foot(p->model, "left"), 0.2);
+    int contact = contact_index_at(p, ambulo_model_find_foot(p->model, "left"), 0.2);
     const ambulo_contact *c = ambulo_problem_contact(p, contact);
     assert_int_equal(c->mode, AMBULO_CONTACT_FLAT);
     assert_close(c->from, 0.08, 1e-14);
@@ -53,7 +55,7 @@ static void phases_and_places_are_read(void **state) {
       HEAD "time: {intervals: 4}\n" GAIT "step_time: 0.5, step_width: 0.2, start: 0.05, "
            "phases: {heel_strike: -0.05, foot_flat: 0.05, heel_off: 0.4, toe_off: 0.6}}\n");
   const ambulo_contact *c = ambulo_problem_contact(
-      p, ambulo_problem_contact_at(p, ambulo_model_find_foot(p->model, "right"), 0.6));
+      p, contact_index_at(p, ambulo_model_find_foot(p->model, "right"), 0.6));
   assert_close(c->from, 0.55, 1e-14);
   assert_close(c->to, 0.9, 1e-14);
   assert_close(c->place[0], 0.65, 1e-14);
@@ -184,7 +186,7 @@ static void contacts_of_patches_are_read(void **state) {
   assert_int_equal(ambulo_problem_contact(p, 0)->foot, ambulo_model_find_foot(p->model, "left"));
   assert_int_equal(c->foot, -1);
   assert_int_equal(c->mode, AMBULO_CONTACT_PATCH);
-  assert_int_equal(c->patch, ambulo_model_find_patch(p->model, "seat"));
+  assert_int_equal(c->patch, ambulo__find_patch(p->model, "seat"));
   assert_close(c->from, 0.2, 0.0);
   assert_close(c->to, 0.7, 0.0);
   assert_close(c->place[2], 0.45, 0.0);

@@ -52,7 +52,7 @@ static void everything_is_read(void **state) {
       "constraints: {contact_tolerance: 0.003, orientation_tolerance: 0.02, strike_pitch: "
       "[10, 20], clearance: {height: 0.01, tip_from: 0.4, ceiling: 0.3, turn: 0.1, "
       "outward: 0.05, inward: 0.02, feet: 0.015}}\n");
-  expect_reaction(ambulo_problem_ground_reaction(p));
+  expect_reaction(&p->definition.ground_reaction);
   expect_contacts(&p->definition);
   ambulo_problem_free(p);
 }
@@ -60,7 +60,7 @@ static void everything_is_read(void **state) {
 static void defaults(void **state) {
   (void)state;
   ambulo_problem *p = problem_of(HEAD REST "ground_reaction: {pressure: off}\n");
-  const ambulo_ground_reaction *r = ambulo_problem_ground_reaction(p);
+  const ambulo_ground_reaction *r = &p->definition.ground_reaction;
   assert_int_equal(r->kind, AMBULO_REACTION_SHARED);
   assert_int_equal(r->pressure, 0);
   assert_true(!(p->definition.minimum_force >= 0.0));
@@ -69,7 +69,7 @@ static void defaults(void **state) {
   assert_close(p->definition.contact_tolerance, 0.0, 0.0);
   ambulo_problem_free(p);
   p = problem_of(HEAD REST);
-  assert_int_equal(ambulo_problem_ground_reaction(p)->kind, AMBULO_REACTION_NONE);
+  assert_int_equal(p->definition.ground_reaction.kind, AMBULO_REACTION_NONE);
   ambulo_problem_free(p);
 }
 

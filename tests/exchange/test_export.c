@@ -1,5 +1,6 @@
 /* ambulo_export: models of random trees come back by the import with the same torques; motions;
  * what is refused; files whole or not at all. */
+#include "mechanics/lagrangian.h"
 #include "ambulo/tools/export.h"
 #include "ambulo/tools/load.h"
 
@@ -31,8 +32,8 @@ static void torques(const ambulo_model *model, const ambulo_model *order, const 
     assert_true(at >= 0);
     for (int k = 0; k < 3; k++) q[k][at] = state[k * d + i];
   }
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
+  assert_int_equal(ambulo__lagrangian_inverse_dynamics(
                        model, q[0], q[1], q[2],
                        &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = own}, scratch),
                    AMBULO_OK);

@@ -1,4 +1,5 @@
 /* Which format a file is in: by its kind, by its keys, and what is said of the wrong one. */
+#include "base/diagnostics.h"
 #include "formats/yaml_node.h"
 #include "support/messages.h"
 #include "support/test.h"
@@ -9,7 +10,7 @@
 static int kind_of(const char *text, const char *const *kinds, int count, ambulo_diagnostics *list,
                    ambulo_status *status) {
   ambulo__yaml *document = NULL;
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   assert_int_equal(ambulo__yaml_load_text(text, strlen(text), "f.yaml", NULL, list, &document), 0);
   int found = ambulo__yaml_file_kind(ambulo__yaml_root(document), kinds, count);
   *status = ambulo__yaml_finish(document);

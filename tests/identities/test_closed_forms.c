@@ -1,6 +1,7 @@
 /* Pendulum and two-link arm against the textbook equations, both routes of the library.
  * The arm lies in a vertical plane, angles from the horizontal, gravity g along -y; c_i are the
  * distances from the joints to the centres of mass. */
+#include "mechanics/lagrangian.h"
 #include "support/arm.h"
 #include "support/test.h"
 
@@ -23,9 +24,9 @@ static states state_number(int k) {
 static void torques(const ambulo_model *model, const states *s, int reference, double *tau,
                     double *wrench) {
   if (reference) {
-    void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+    void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
     assert_int_equal(
-        ambulo_lagrangian_inverse_dynamics(
+        ambulo__lagrangian_inverse_dynamics(
             model, s->q, s->qd, s->qdd,
             &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench},
             scratch),

@@ -1,4 +1,5 @@
 /* The kernels of each instruction set against LAPACK and plain sums, on sizes that fill no tile. */
+#include "mechanics/kernels.h"
 #include "ambulo/mechanics.h"
 #include "linear/band.h"
 #include "support/engine_fixture.h"
@@ -251,7 +252,7 @@ static void the_environment_chooses(void **state) {
   assert_null(ambulo__band_kernels_select());
   unsetenv("AMBULO_ISA");
   const ambulo__band_kernels *set = ambulo__band_kernels_select();
-  if (set) assert_string_equal(set->name, ambulo_instruction_set());
+  if (set) assert_string_equal(set->name, ambulo__instruction_set());
 }
 
 int main(void) {

@@ -9,6 +9,7 @@
 
 #include <complex.h>
 
+#include "mechanics/lagrangian.h"
 #include "kernel_fixture.h"
 #include "ambulo/tools/load.h"
 #include "mechanics/plan_layout.h"
@@ -139,7 +140,7 @@ static inline void contact_case_open(contact_case *c, int number) {
   b->weights = lane_array((size_t)b->rows);
   b->out = lane_array((size_t)b->rows);
   b->scratch = lane_array(ambulo__plan_scratch(b->plan) / AMBULO__LANES);
-  b->reference_scratch = malloc(ambulo_lagrangian_scratch_size(b->model));
+  b->reference_scratch = malloc(ambulo__lagrangian_scratch_size(b->model));
   c->ground = lane_array((size_t)ambulo__plan_ground_entries(b->plan));
   assert_non_null(b->reference_scratch);
   int regime = number < 0 ? 1 + (number % 2 == 0) : number % 5;

@@ -8,6 +8,7 @@
 #ifndef TESTS_MECHANICS_KERNEL_FIXTURE_H
 #define TESTS_MECHANICS_KERNEL_FIXTURE_H
 
+#include "mechanics/lagrangian.h"
 #include "ambulo/mechanics.h"
 #include "mechanics/plan.h"
 #include "support/random_model.h"
@@ -67,7 +68,7 @@ static inline void case_open(kernel_case *c, int number) {
   c->weights = lane_array((size_t)c->rows);
   c->out = lane_array((size_t)c->rows);
   c->scratch = lane_array(ambulo__plan_scratch(c->plan) / AMBULO__LANES);
-  c->reference_scratch = malloc(ambulo_lagrangian_scratch_size(c->model));
+  c->reference_scratch = malloc(ambulo__lagrangian_scratch_size(c->model));
   assert_non_null(c->reference_scratch);
   for (int i = 0; i < c->d * AMBULO__LANES; i++) {
     c->q[i] = random_pose(&source, number % random_poses);
@@ -96,12 +97,12 @@ static inline void case_state(const kernel_case *c, int lane, double *state) {
 
 static inline void case_reference(const kernel_case *c, const double *state, double *rows) {
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(c->model, state, state + c->d, state + 2 * c->d,
-                                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                           .tau = rows,
-                                                           .wrench = rows + c->d,
-                                                           .points = rows + c->d + 6},
-                                         c->reference_scratch),
+      ambulo__lagrangian_inverse_dynamics(c->model, state, state + c->d, state + 2 * c->d,
+                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                            .tau = rows,
+                                                            .wrench = rows + c->d,
+                                                            .points = rows + c->d + 6},
+                                          c->reference_scratch),
       AMBULO_OK);
 }
 
@@ -115,7 +116,7 @@ static inline void case_jacobian(const kernel_case *c, const double *state, doub
   }
   for (int k = 0; k < 3 * c->d; k++) {
     z[2 * k + 1] = step;
-    assert_int_equal(ambulo_lagrangian_inverse_dynamics_complex(
+    assert_int_equal(ambulo__lagrangian_inverse_dynamics_complex(
                          c->model, z, z + 2 * c->d, z + 4 * c->d,
                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
                                            .tau = out,

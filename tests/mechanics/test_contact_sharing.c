@@ -1,6 +1,7 @@
 /* What the law by which contacts share a wrench promises, whatever the numbers: one contact takes
  * all of it, the sum is right, nothing acts without weight, equals share equally, no other sharing
  * is cheaper, and where it happens does not matter. */
+#include "mechanics/lagrangian.h"
 #include "contact_fixture.h"
 
 /* Row of the outputs in a lane. */
@@ -346,7 +347,7 @@ static void check_root(contact_case *c, const ambulo__kernels *kernels) {
     if (lane == in_flight) continue;
     case_state(b, lane, motion);
     for (int i = 0; i < 3 * b->d; i++) z[2 * i] = motion[i];
-    assert_int_equal(ambulo_lagrangian_inverse_dynamics_complex(
+    assert_int_equal(ambulo__lagrangian_inverse_dynamics_complex(
                          b->model, z, z + 2 * b->d, z + 4 * b->d,
                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
                                            .tau = (double *)rows,

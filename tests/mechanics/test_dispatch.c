@@ -1,6 +1,7 @@
 /* Choosing a kernel set: names, the environment's word, and nothing half-built. */
 #include <stdlib.h>
 
+#include "mechanics/kernels.h"
 #include "ambulo/mechanics.h"
 #include "mechanics/plan.h"
 #include "support/test.h"
@@ -33,12 +34,12 @@ static void the_fastest_is_chosen_unless_told(void **state) {
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
     if (!ambulo__kernels_by_name(names[i])) continue;
     setenv("AMBULO_ISA", names[i], 1);
-    assert_string_equal(ambulo_instruction_set(), names[i]);
+    assert_string_equal(ambulo__instruction_set(), names[i]);
   }
   setenv("AMBULO_ISA", "nonsense", 1);
-  const char *chosen = ambulo_instruction_set();
+  const char *chosen = ambulo__instruction_set();
   unsetenv("AMBULO_ISA");
-  assert_string_equal(chosen, ambulo_instruction_set());
+  assert_string_equal(chosen, ambulo__instruction_set());
 }
 
 int main(void) {

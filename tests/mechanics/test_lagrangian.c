@@ -1,5 +1,6 @@
 /* The reference recursion against laws it does not use: energy balance, symmetry and definiteness
  * of the mass matrix, a root joint that feels the root wrench, and forward dynamics undone. */
+#include "mechanics/lagrangian.h"
 #include "ambulo/mechanics.h"
 #include "support/random_model.h"
 #include "support/test.h"
@@ -17,7 +18,7 @@ typedef struct rig {
 static void rig_build(rig *r) {
   assert_int_equal(ambulo_model_create(&r->tree.definition, NULL, NULL, &r->model), AMBULO_OK);
   r->d = ambulo_model_coordinate_count(r->model);
-  r->scratch = malloc(ambulo_lagrangian_scratch_size(r->model));
+  r->scratch = malloc(ambulo__lagrangian_scratch_size(r->model));
   assert_non_null(r->scratch);
 }
 
@@ -39,7 +40,7 @@ static void fill(rig *r, double *values, double size) {
 static void inverse(rig *r, const double *q, const double *qd, const double *qdd, double *tau,
                     double *wrench) {
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(
+      ambulo__lagrangian_inverse_dynamics(
           r->model, q, qd, qdd,
           &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench},
           r->scratch),
@@ -48,7 +49,7 @@ static void inverse(rig *r, const double *q, const double *qd, const double *qdd
 
 static double energy(rig *r, const double *q, const double *qd) {
   double kinetic = 0, potential = 0;
-  assert_int_equal(ambulo_lagrangian_energy(r->model, q, qd, &kinetic, &potential, r->scratch),
+  assert_int_equal(ambulo__lagrangian_energy(r->model, q, qd, &kinetic, &potential, r->scratch),
                    AMBULO_OK);
   return kinetic + potential;
 }
@@ -190,7 +191,7 @@ static void mass_matrix_is_symmetric_and_positive(void **state) {
         assert_true(fabs(mass[i][j] - mass[j][i]) <= 1e-11 * scale);
       }
     }
-    assert_int_equal(ambulo_lagrangian_energy(r.model, q, qd, &kinetic, NULL, r.scratch),
+    assert_int_equal(ambulo__lagrangian_energy(r.model, q, qd, &kinetic, NULL, r.scratch),
                      AMBULO_OK);
     assert_close(twice / kinetic, 2, 1e-10);
     assert_true(factor(mass, r.d));
@@ -234,7 +235,7 @@ static void complex_form_extends_the_real_one(void **state) {
   }
   inverse(&r, x, x + r.d, x + 2 * r.d, tau, wrench);
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics_complex(
+      ambulo__lagrangian_inverse_dynamics_complex(
           r.model, z, z + 2 * r.d, z + 4 * r.d,
           &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = complex_tau, .wrench = pairs},
           r.scratch),
@@ -254,24 +255,24 @@ static void refuses_without_touching(void **state) {
   double q[4] = {0}, bad[4] = {0, NAN, 0, 0}, tau[4] = {7, 7, 7, 7}, t = 7, v = 7;
   const ambulo_model *m = r.model;
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(
+      ambulo__lagrangian_inverse_dynamics(
           m, q, bad, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, r.scratch),
       AMBULO_E_NUMERIC);
-  assert_int_equal(ambulo_lagrangian_energy(m, q, bad, &t, &v, r.scratch), AMBULO_E_NUMERIC);
+  assert_int_equal(ambulo__lagrangian_energy(m, q, bad, &t, &v, r.scratch), AMBULO_E_NUMERIC);
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(
+      ambulo__lagrangian_inverse_dynamics(
           m, NULL, q, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, r.scratch),
       AMBULO_E_ARGUMENT);
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(
+      ambulo__lagrangian_inverse_dynamics(
           NULL, q, q, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, r.scratch),
       AMBULO_E_ARGUMENT);
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(
+      ambulo__lagrangian_inverse_dynamics(
           m, q, q, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, NULL),
       AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_lagrangian_energy(NULL, q, q, &t, &v, r.scratch), AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_lagrangian_scratch_size(NULL), 0);
+  assert_int_equal(ambulo__lagrangian_energy(NULL, q, q, &t, &v, r.scratch), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo__lagrangian_scratch_size(NULL), 0);
   for (int i = 0; i < 4; i++) assert_true(tau[i] == 7);
   assert_true(t == 7 && v == 7);
   rig_close(&r);

@@ -1,4 +1,5 @@
 /* Capsules of a definition: links, sizes, names and mirror pairs. */
+#include "support/find_capsule.h"
 #include "support/chain_definition.h"
 
 static void capsules(void **state) {
@@ -46,8 +47,8 @@ static void a_model_keeps_its_capsules(void **state) {
   assert_int_equal(a->link, 2);
   assert_close(a->to[1], 0.5, 0.0);
   assert_int_equal(a->mirror, 1);
-  assert_int_equal(ambulo_model_find_capsule(m, "b"), 1);
-  assert_int_equal(ambulo_model_find_capsule(m, "c"), -1);
+  assert_int_equal(find_capsule(m, "b"), 1);
+  assert_int_equal(find_capsule(m, "c"), -1);
   assert_null(ambulo_model_capsule(m, 2));
   ambulo_conditions conditions = ambulo_conditions_default();
   ambulo_model *adapted = NULL;

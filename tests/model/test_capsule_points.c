@@ -1,4 +1,5 @@
 /* A copy of a model with the ends of some capsules among its points; which links are neighbours. */
+#include "support/find_capsule.h"
 #include "model/capsule_points.h"
 #include "ambulo/tools/load.h"
 #include "model/neutral_pose.h"
@@ -18,8 +19,8 @@ static ambulo_model *body(const char *name) {
 static void ends_are_points(void **state) {
   (void)state;
   ambulo_model *m = body("lower_body_18"), *extended = NULL, *more = NULL;
-  int used[64] = {0}, head = ambulo_model_find_capsule(m, "head");
-  int foot = ambulo_model_find_capsule(m, "foot_l");
+  int used[64] = {0}, head = find_capsule(m, "head");
+  int foot = find_capsule(m, "foot_l");
   used[foot] = 1;
   assert_int_equal(ambulo__model_with_capsule_points(m, used, NULL, NULL, &extended), AMBULO_OK);
   assert_int_equal(extended->point_count, m->point_count + 2);

@@ -1,4 +1,5 @@
 /* A model that climbs and carries: what changes, what stays, what is refused. */
+#include "base/diagnostics.h"
 #include "model/conditions.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
@@ -103,7 +104,7 @@ static void what_is_refused(void **state) {
   wrong[5] = (ambulo_conditions){
       .size = wrong[0].size, .load_link = 0, .load_mass = 1.0, .load_position = {(double)INFINITY}};
   for (int i = 0; i < 6; i++) {
-    ambulo_diagnostics_clear(list);
+    ambulo__diagnostics_clear(list);
     assert_int_equal(ambulo_model_adapt(model, &wrong[i], NULL, list, &untouched),
                      AMBULO_E_ARGUMENT);
     assert_message(list, 0, "the conditions are out of range");

@@ -1,3 +1,5 @@
+#include "model/model.h"
+#include "base/diagnostics.h"
 #include "support/chain_definition.h"
 
 static void intervals(void **state) {
@@ -48,7 +50,7 @@ static void unlike_pairs(void **state) {
   assert_int_equal(ambulo_model_create(&c.definition, NULL, list, &model), AMBULO_E_MODEL);
   assert_message(list, 0, "mirror image of coordinate 'qa' is of another kind");
   assert_message(list, 1, "mirror image of coordinate 'qb' is of another kind");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   c.links[1].type = AMBULO_REVOLUTE;
   c.coordinates[1].mirror_sign = -1;
   assert_int_equal(ambulo_model_create(&c.definition, NULL, list, &model), AMBULO_E_MODEL);
@@ -148,9 +150,9 @@ static void patches_are_kept(void **state) {
     assert_close(palm->size[0], 0.1, 0.0);
     assert_close(palm->size[1], 0.2, 0.0);
     assert_int_equal(palm->mirror, 1);
-    assert_int_equal(ambulo_model_find_patch(m, "back"), 1);
-    assert_int_equal(ambulo_model_find_patch(m, "foot"), -1);
-    assert_int_equal(ambulo_model_find_patch(m, NULL), -1);
+    assert_int_equal(ambulo__find_patch(m, "back"), 1);
+    assert_int_equal(ambulo__find_patch(m, "foot"), -1);
+    assert_int_equal(ambulo__find_patch(m, NULL), -1);
     assert_null(ambulo_model_patch(m, 2));
     assert_null(ambulo_model_patch(m, -1));
   }

@@ -1,6 +1,7 @@
 /* Random bodies that are their own mirror image are told so, whatever their frames; one number
  * changed is found, with the name of what it moved. What "is its own mirror image" means is asked
  * of the dynamics: mirrored states have mirrored torques. */
+#include "mechanics/lagrangian.h"
 #include "model/mirror_image.h"
 
 #include "ambulo/tools/tools.h"
@@ -24,10 +25,10 @@ static ambulo_model *create(const symmetric_body *b) {
 
 static void torques(const ambulo_model *model, double (*state)[MOST], double *tau) {
   double wrench[6], points[3 * symmetric_points + 3 * 32];
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
   const ambulo_outputs out = {sizeof out, tau, wrench, points};
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(model, state[0], state[1], state[2], &out, scratch),
+      ambulo__lagrangian_inverse_dynamics(model, state[0], state[1], state[2], &out, scratch),
       AMBULO_OK);
   free(scratch);
 }

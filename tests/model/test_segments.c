@@ -1,5 +1,6 @@
 /* The body at q = 0, against the equations of motion of the reference: its wrench at rest gives
  * the centre of mass, its points their places; a body in two links is one segment. */
+#include "mechanics/lagrangian.h"
 #include "model/segments.h"
 
 #include "ambulo/ambulo.h"
@@ -26,9 +27,9 @@ static void places_and_centres_agree_with_the_mechanics(void **state) {
     ambulo_model *model = random_model(seed);
     const double zero[6] = {0};
     double tau[6], wrench[6], points[3 * random_max_points], r[3] = {0}, place[3];
-    void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+    void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
     assert_int_equal(
-        ambulo_lagrangian_inverse_dynamics(
+        ambulo__lagrangian_inverse_dynamics(
             model, zero, zero, zero,
             &(ambulo_outputs){
                 .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},

@@ -1,5 +1,6 @@
 /* The planar OpenSim model: sizes and signs, and that its published motion needs the published
  * ground forces. */
+#include "mechanics/lagrangian.h"
 #include "ambulo/tools/report.h"
 #include "ambulo/tools/load.h"
 #include "support/messages.h"
@@ -22,8 +23,8 @@ static ambulo_model *load(void) {
 static void heels(const ambulo_model *model, const double *q, double heel[2][3]) {
   static const double zero[COORDINATES];
   double points[POINTS][3];
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
+  assert_int_equal(ambulo__lagrangian_inverse_dynamics(
                        model, q, zero, zero,
                        &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = points[0]},
                        scratch),

@@ -1,4 +1,5 @@
 /* Every shipped model loads without a word and is what its comments say. */
+#include "mechanics/lagrangian.h"
 #include "ambulo/tools/tools.h"
 #include "support/messages.h"
 #include "support/test.h"
@@ -31,14 +32,14 @@ static ambulo_model *load(const char *name, const ambulo_subject *subject) {
 static pose evaluate(const ambulo_model *model, const double *q, const double *qd,
                      const double *qdd) {
   pose p;
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(model, q, qd, qdd,
-                                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                           .tau = p.tau,
-                                                           .wrench = p.wrench,
-                                                           .points = p.points[0]},
-                                         scratch),
+      ambulo__lagrangian_inverse_dynamics(model, q, qd, qdd,
+                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                            .tau = p.tau,
+                                                            .wrench = p.wrench,
+                                                            .points = p.points[0]},
+                                          scratch),
       AMBULO_OK);
   free(scratch);
   return p;

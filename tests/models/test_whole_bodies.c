@@ -1,5 +1,6 @@
 /* Whole bodies: with arms, neck and toes at rest they are lower_body_21, whose arms and head are
  * fixed; joints turn to where their names say. */
+#include "mechanics/lagrangian.h"
 #include "ambulo/tools/tools.h"
 #include "support/random_model.h"
 #include "support/test.h"
@@ -27,7 +28,7 @@ static void open_body(body *b, const char *name, const char *sex) {
   assert_int_equal(ambulo_model_load(path, &subject, NULL, NULL, &b->model), AMBULO_OK);
   assert_true(ambulo_model_coordinate_count(b->model) <= MOST);
   assert_true(ambulo_model_point_count(b->model) <= MOST_POINTS);
-  b->scratch = malloc(ambulo_lagrangian_scratch_size(b->model));
+  b->scratch = malloc(ambulo__lagrangian_scratch_size(b->model));
   assert_non_null(b->scratch);
 }
 
@@ -38,12 +39,12 @@ static void close_body(body *b) {
 
 static void evaluate(body *b) {
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(b->model, b->q, b->qd, b->qdd,
-                                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                           .tau = b->tau,
-                                                           .wrench = b->wrench,
-                                                           .points = b->points[0]},
-                                         b->scratch),
+      ambulo__lagrangian_inverse_dynamics(b->model, b->q, b->qd, b->qdd,
+                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                            .tau = b->tau,
+                                                            .wrench = b->wrench,
+                                                            .points = b->points[0]},
+                                          b->scratch),
       AMBULO_OK);
 }
 

@@ -1,4 +1,5 @@
 /* The yardstick body against numbers of an independent formulation, and its layout. */
+#include "mechanics/lagrangian.h"
 #include "ambulo/tools/tools.h"
 #include "models/yardstick_reference.h"
 #include "support/test.h"
@@ -57,9 +58,9 @@ static void outputs(const ambulo_model *model, int k, double out[YARDSTICK_OUTPU
   double tau[YARDSTICK_COORDINATES], wrench[6];
   int count = ambulo_model_point_count(model);
   double(*points)[3] = malloc((size_t)count * sizeof *points);
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(
+      ambulo__lagrangian_inverse_dynamics(
           model, yardstick_q[k], yardstick_qd[k], yardstick_qdd[k],
           &(ambulo_outputs){
               .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points[0]},

@@ -1,4 +1,5 @@
 /* Filters on the rows of a file: their rate, and rows that no filter fits. */
+#include "base/diagnostics.h"
 #include "people/inverse.h"
 #include "people/motion_fit.h"
 #include "support/arm.h"
@@ -312,7 +313,7 @@ static void columns_that_contradict(void **state) {
   assert_int_equal(ambulo_diagnostics_count(list), 2);
   assert_message(list, 0, "'shoulder' and 'q.shoulder' both stand for coordinate 'shoulder'");
   assert_message(list, 1, "'/a/elbow/value' and '/b/elbow/value' both stand for");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   scratch_write(path, "time,shoulder,elbow,qd.elbow,elbow_u\n0,1,1,2,3\n0.1,1,1,2,3\n");
   (void)inverse_of(model, path, NULL, list, AMBULO_E_SCHEMA);
   assert_message(list, 0, "'qd.elbow' and 'elbow_u' both stand for coordinate 'elbow'");
@@ -329,11 +330,11 @@ static void missing_columns(void **state) {
   assert_message(list, 0, "warning: no column for coordinate 'elbow'; it is taken as 0");
   assert_close(table_cell(m, 2, "q.elbow"), 0.0, 0.0);
   ambulo__motion_free(m);
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   scratch_write(path, "time,ankle,wrist\n0,1,1\n0.1,1,1\n0.2,1,1\n0.3,1,1\n");
   (void)inverse_of(model, path, NULL, list, AMBULO_E_SCHEMA);
   assert_message(list, 0, "no column is named after a coordinate of model 'arm'");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   scratch_write(path, "time,shoulder,elbow\n0,1,1\n0.1,1,1e300\n0.2,1,-1e300\n0.3,1,1\n");
   (void)inverse_of(model, path, NULL, list, AMBULO_E_NUMERIC);
   assert_int_equal(ambulo_diagnostics_error_count(list), 1);

@@ -1,5 +1,6 @@
 /* Ground reaction in a whole problem: tests/support/walk_rigid.yaml at a made-up point that moves
  * gently, so that the body presses on the ground. */
+#include "support/contact_index.h"
 #include "problem/nlp.h"
 #include "ambulo/tools/load.h"
 #include "support/test.h"
@@ -52,7 +53,7 @@ static void feet_supply_the_root_wrench(void **state) {
     for (int foot = 0; foot < 2; foot++) {
       const double *force = grf + 6 * k + 3 * foot, *place = cop + 6 * k + 3 * foot;
       double size = fabs(force[0]) + fabs(force[1]) + fabs(force[2]);
-      int down = ambulo_problem_contact_at(f.problem, foot, f.problem->times[k]) >= 0;
+      int down = contact_index_at(f.problem, foot, f.problem->times[k]) >= 0;
       if (!down) assert_true(isnan(place[0]) && size == 0.0);
       for (int i = 0; i < 3; i++) {
         sum[i] += moment[6 * k + 3 * foot + i];
@@ -117,7 +118,7 @@ static void other_problems_have_no_forces_on_feet(void **state) {
                    AMBULO_OK);
   for (int i = 0; i < 6; i++) assert_true(isnan(grf[i]) && isnan(cop[i]) && isnan(moment[i]));
   assert_true(isnan(twist[0]) && isnan(twist[1]));
-  assert_int_equal(ambulo_problem_ground_reaction(f.problem)->kind, AMBULO_REACTION_NONE);
+  assert_int_equal(f.problem->definition.ground_reaction.kind, AMBULO_REACTION_NONE);
   fixture_close(&f);
 }
 
@@ -181,9 +182,9 @@ static void forces_at_the_end_are_held_unless_they_repeat(void **state) {
     assert_int_equal(
         ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 2, NULL, NULL, &p),
         AMBULO_OK);
-    assert_int_equal(ambulo_problem_contact_at(p, 1, ambulo_problem_duration(p)), -1);
-    assert_true(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p)) >= 0);
-    assert_int_equal(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p) + 0.01), -1);
+    assert_int_equal(contact_index_at(p, 1, ambulo_problem_duration(p)), -1);
+    assert_true(contact_index_at(p, 0, ambulo_problem_duration(p)) >= 0);
+    assert_int_equal(contact_index_at(p, 0, ambulo_problem_duration(p) + 0.01), -1);
     for (int r = 0; r < p->rows; r++) {
       const ambulo__table_row *row = &p->table.rows[r];
       if (row->node != p->nodes - 1) continue;

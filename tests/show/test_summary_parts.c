@@ -1,4 +1,5 @@
 /* Versions of what is running: from the libraries themselves; parts of summary.json. */
+#include "mechanics/kernels.h"
 #include "ambulo/ambulo.h"
 #include "ambulo/tools/tools.h"
 #include "formats/motion_csv.h"
@@ -21,7 +22,7 @@ static void test_versions(void **state) {
   assert_string_equal(v.ambulo, AMBULO_VERSION_STRING);
   assert_int_equal(sscanf(v.nlopt, "%d.%d.%d", &major, &minor, &patch), 3);
   assert_int_equal(sscanf(v.libyaml, "%d.%d.%d", &major, &minor, &patch), 3);
-  assert_string_equal(v.instruction_set, ambulo_instruction_set());
+  assert_string_equal(v.instruction_set, ambulo__instruction_set());
   assert_true(strlen(v.blas) > 3);
   assert_null(strchr(v.blas, '\n'));
 }

@@ -16,8 +16,8 @@ static ambulo_result *solve(const ambulo_problem *problem, const ambulo_options 
 
 static void expect(const ambulo_result *r, ambulo_ending ending, const char *words) {
   if (ambulo_result_ending_code(r) != ending || !strstr(ambulo_result_ending(r), words))
-    print_error("%s: '%s', expected %s: '%s'\n", ambulo_ending_name(ambulo_result_ending_code(r)),
-                ambulo_result_ending(r), ambulo_ending_name(ending), words);
+    print_error("%s: '%s', expected %s: '%s'\n", ambulo__ending_name(ambulo_result_ending_code(r)),
+                ambulo_result_ending(r), ambulo__ending_name(ending), words);
   assert_int_equal(ambulo_result_ending_code(r), ending);
   assert_non_null(strstr(ambulo_result_ending(r), words));
 }
@@ -164,12 +164,12 @@ static void zero_is_no_verdict(void **state) {
 static void endings_have_names(void **state) {
   (void)state;
   for (int a = AMBULO_ENDING_NONE; a <= AMBULO_ENDING_CALLER; a++) {
-    assert_true(strlen(ambulo_ending_text((ambulo_ending)a)) > 10);
+    assert_true(strlen(ambulo__ending_text((ambulo_ending)a)) > 10);
     for (int b = AMBULO_ENDING_NONE; b < a; b++)
-      assert_string_not_equal(ambulo_ending_name((ambulo_ending)a),
-                              ambulo_ending_name((ambulo_ending)b));
+      assert_string_not_equal(ambulo__ending_name((ambulo_ending)a),
+                              ambulo__ending_name((ambulo_ending)b));
   }
-  assert_string_equal(ambulo_ending_name((ambulo_ending)99), "unknown");
+  assert_string_equal(ambulo__ending_name((ambulo_ending)99), "unknown");
 }
 
 /* that no metric could be factored says nothing about the rows: no conflict is shown */

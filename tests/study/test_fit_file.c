@@ -1,4 +1,5 @@
 /* Fit files: what is read, what is refused with its place, memory that gives out. */
+#include "base/diagnostics.h"
 #include "support/fail_alloc.h"
 #include "support/fit_files.h"
 
@@ -83,7 +84,7 @@ static void a_file_that_is_not_there(void **state) {
   assert_int_equal(ambulo_fit_load(scratch_path(state, "none.yaml"), NULL, list, &fit),
                    AMBULO_E_IO);
   assert_message(list, 0, "none.yaml: error[E_IO]");
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   assert_int_equal(ambulo_fit_load("", NULL, list, &fit), AMBULO_E_ARGUMENT);
   assert_message(list, 0, "the name of the file is empty");
   assert_int_equal(ambulo_fit_load(NULL, NULL, list, &fit), AMBULO_E_ARGUMENT);

@@ -1,6 +1,7 @@
 /* Whole fits by the program itself, of a rod whose truth is known: the references are motions of
  * the problem with other numbers, which the fit finds; results that do not depend on workers or
  * stops; folders that are refused; first solves that all fail. */
+#include "base/diagnostics.h"
 #include "ambulo/solve.h"
 #include "ambulo/tools/compare.h"
 #include "ambulo/tools/load.h"
@@ -318,7 +319,7 @@ static ambulo_status prepare(const ambulo_fit *fit, const char *directory, int f
   o.progress = stop_after;
   o.user = &s;
   o.force = force;
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   return ambulo_fit_run(fit, directory, &o, NULL, list, NULL, NULL);
 }
 

@@ -8,6 +8,7 @@
  *     a y'''' + b y = 0,  y(0) = -1, y'(0) = 0, y''(1) = y'''(1) = 0,
  *
  * so y is a sum of e^(+-c t) cos c t, e^(+-c t) sin c t with c = (b / 4a)^(1/4). */
+#include "base/diagnostics.h"
 #include "study/front_points.h"
 #include "support/fit_files.h"
 #include "support/messages.h"
@@ -205,7 +206,7 @@ static void other_inputs_are_refused(void **state) {
   assert_true(end.resumed >= 2 && end.done == end.cases);
   ambulo_batch_options o = ambulo_batch_options_default();
   o.shards = 2;
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   assert_int_equal(ambulo_batch_run(sweep, folder, &o, NULL, list, &end), AMBULO_E_ARGUMENT);
   assert_message(list, 0, "the points of a front follow from each other");
   ambulo_diagnostics_free(list);

@@ -18,6 +18,7 @@
 
 #include "ambulo/mechanics.h"
 #include "mechanics/lagrangian.h"
+#include "mechanics/lagrangian_state.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -220,12 +221,12 @@ static inline ambulo_status contact_reference(const ambulo_model *model,
                                               void *scratch) {
   int d = model->coordinate_count, points = 3 * model->point_count;
   ambulo_status status =
-      ambulo_lagrangian_inverse_dynamics_complex(model, q, qd, qdd,
-                                                 &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                                   .tau = rows,
-                                                                   .wrench = rows + 2 * d,
-                                                                   .points = rows + 2 * (d + 6)},
-                                                 scratch);
+      ambulo__lagrangian_inverse_dynamics_complex(model, q, qd, qdd,
+                                                  &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                                    .tau = rows,
+                                                                    .wrench = rows + 2 * d,
+                                                                    .points = rows + 2 * (d + 6)},
+                                                  scratch);
   if (status != AMBULO_OK) return status;
   const link_state *states = scratch;
   scalar *out = (scalar *)(void *)rows, *contact = out + d + 6 + points;

@@ -15,8 +15,17 @@ typedef struct import_case {
   ambulo_model *model;
 } import_case;
 
+/* as the library was built: its tests are compiled with the same flags */
+static inline int reads_xml(void) {
+#ifdef AMBULO_HAS_EXPAT
+  return 1;
+#else
+  return 0;
+#endif
+}
+
 static inline void skip_without_expat(void) {
-  if (ambulo_import_available()) return;
+  if (reads_xml()) return;
   print_message("skipped: built without expat\n");
   skip();
 }

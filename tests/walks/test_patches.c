@@ -1,5 +1,6 @@
 /* Patches in whole problems: who carries what, by hand and by a law that is solved otherwise; what
  * does not go with them. */
+#include "support/contact_index.h"
 #include "mechanics/pose.h"
 #include "support/patched_problem.h"
 
@@ -203,13 +204,12 @@ static void a_hand_on_a_rail_takes_what_the_law_says(void **state) {
   }
   const ambulo_problem *problem = at_rail.problem;
   for (double t = 0.1; t < 1.0; t += 0.2) {
-    assert_int_equal(ambulo_problem_patch_contact_at(problem, HAND_R, t),
-                     t > 0.2 && t < 0.8 ? 2 : -1);
-    assert_int_equal(ambulo_problem_patch_contact_at(problem, SEAT, t), -1);
+    assert_int_equal(patch_contact_index_at(problem, HAND_R, t), t > 0.2 && t < 0.8 ? 2 : -1);
+    assert_int_equal(patch_contact_index_at(problem, SEAT, t), -1);
   }
-  assert_int_equal(ambulo_problem_patch_contact_at(problem, PATCHES, 0.5), -1);
-  assert_int_equal(ambulo_problem_patch_contact_at(problem, -1, 0.5), -1);
-  assert_int_equal(ambulo_problem_contact_at(problem, 2, 0.5), -1);
+  assert_int_equal(patch_contact_index_at(problem, PATCHES, 0.5), -1);
+  assert_int_equal(patch_contact_index_at(problem, -1, 0.5), -1);
+  assert_int_equal(contact_index_at(problem, 2, 0.5), -1);
   unpose(&at_rail);
   ambulo_model_free(model);
 }

@@ -3,6 +3,7 @@
  *
  * Momenta are found apart from inverse dynamics, from where the bodies of the links are at q and a
  * little along qd to either side. */
+#include "support/contact_index.h"
 #include "support/scratch.h"
 #include "support/shared_data.h"
 
@@ -161,7 +162,7 @@ static force_curve forces_of(run *r) {
   const ambulo_model *m = ambulo_problem_model(r->problem);
   double duration = ambulo_problem_duration(r->problem);
   const int n = ambulo_model_coordinate_count(m);
-  int foot = ambulo_problem_contact_at(r->problem, 1, 0.05) >= 0;
+  int foot = contact_index_at(r->problem, 1, 0.05) >= 0;
   int knee[2] = {ambulo_model_find_coordinate(m, "knee_angle_l"),
                  ambulo_model_find_coordinate(m, "knee_angle_r")};
   force_curve f = {.peak = 0.0};

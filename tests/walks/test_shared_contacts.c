@@ -1,5 +1,7 @@
 /* Contacts that share the load, in whole problems (support/shared_fixture.h). What the kernels give
  * is compared with mechanics by other routes. */
+#include "support/contact_index.h"
+#include "mechanics/lagrangian.h"
 #include "contact/effector.h"
 #include "contact/stance.h"
 #include "mechanics/pose.h"
@@ -99,7 +101,7 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
     int n = c->coordinates;
     double q[TOED_COORDINATES], qd[TOED_COORDINATES], qdd[TOED_COORDINATES];
     double tau[TOED_COORDINATES], wrench[6], points[3 * TOED_POINTS];
-    void *scratch = malloc(ambulo_lagrangian_scratch_size(f.model));
+    void *scratch = malloc(ambulo__lagrangian_scratch_size(f.model));
     ambulo_allocator a = ambulo__allocator_or_default(NULL);
     assert_int_equal(ambulo__pose_create(f.model, &a, &pose), AMBULO_OK);
     for (int node = 0; node < f.problem->nodes; node += 3) {
@@ -109,7 +111,7 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
         qdd[i] = channel(&f, node, ambulo__channel_qdd(c, i));
       }
       assert_int_equal(
-          ambulo_lagrangian_inverse_dynamics(
+          ambulo__lagrangian_inverse_dynamics(
               f.model, q, qd, qdd,
               &(ambulo_outputs){
                   .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
@@ -149,8 +151,8 @@ static void what_results_say_of_contacts_is_all_there_is(void **state) {
       for (int e = 0; e < effectors; e++) {
         int at = k * EFFECTORS + e, patch = ambulo__effector_patch(f.model, e);
         const double *push = force + 3 * at, *place = cop + 3 * at;
-        int index = patch < 0 ? ambulo_problem_contact_at(f.problem, e, times[k])
-                              : ambulo_problem_patch_contact_at(f.problem, patch, times[k]);
+        int index = patch < 0 ? contact_index_at(f.problem, e, times[k])
+                              : patch_contact_index_at(f.problem, patch, times[k]);
         if (index < 0) {
           assert_true(isnan(place[0]) && push[0] == 0.0 && twist[at] == 0.0);
           continue;

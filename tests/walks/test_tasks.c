@@ -1,5 +1,6 @@
 /* The shipped motions that are no walks, from zero: all solve and hold between their nodes, and
  * each does what its comments say. Looked at on a grid ten times as fine as the nodes. */
+#include "support/contact_index.h"
 #include "support/scratch.h"
 #include "support/shared_data.h"
 
@@ -257,7 +258,7 @@ static void a_turn_follows_its_headings(void **state) {
   int seen = 0;
   for (int i = 0; i < k.count; i++) {
     for (int f = 0; f < 2; f++) {
-      int c = ambulo_problem_contact_at(k.problem, f, k.t[i]);
+      int c = contact_index_at(k.problem, f, k.t[i]);
       const ambulo_contact *contact = c >= 0 ? ambulo_problem_contact(k.problem, c) : NULL;
       if (!contact || contact->mode != AMBULO_CONTACT_FLAT) continue;
       const ambulo_foot *foot = ambulo_model_foot(k.model, f);
@@ -292,7 +293,7 @@ static double stairs(double x, int up) {
 /* how far a rigid foot dips into its tread where it turns about the ball, and the toes of people
  * bend; the tip has to clear from a tenth of the swing on */
 static int tip_may_dip(const task *k, int f, double t) {
-  int c = ambulo_problem_contact_at(k->problem, f, t);
+  int c = contact_index_at(k->problem, f, t);
   double left = 2.0 * ambulo_problem_duration(k->problem) * (0.62 - 0.5);
   double air = ambulo_problem_duration(k->problem) - left;
   if (c >= 0) return ambulo_problem_contact(k->problem, c)->mode == AMBULO_CONTACT_TOE;
@@ -303,7 +304,7 @@ static int tip_may_dip(const task *k, int f, double t) {
 static void check_foot(const task *k, int i, int f, int up) {
   const ambulo_foot *foot = ambulo_model_foot(k->model, f);
   const double *heel = place(k, i, foot->heel_center), *tip = place(k, i, foot->tip);
-  int loaded = ambulo_problem_contact_at(k->problem, f, k->t[i]) >= 0;
+  int loaded = contact_index_at(k->problem, f, k->t[i]) >= 0;
   double room = loaded ? 0.006 : 0.001, ball = 0.775;
   enum { PARTS = 40 };
   for (int part = 0; part <= PARTS; part++) {

@@ -1,5 +1,6 @@
 /* models/walk_whole_body.yaml, its larger bodies and run_whole_body.yaml, from zero: arms that
  * nothing tells how to swing. */
+#include "mechanics/lagrangian.h"
 #include "people/stride.h"
 #include "support/test.h"
 
@@ -140,16 +141,16 @@ static double lowest_loaded_tip(const walk *w) {
   size_t d = (size_t)nodes.coordinates;
   double *zero = calloc(2 * d, sizeof *zero), least = INFINITY, wrench[6];
   double(*points)[3] = malloc((size_t)m->point_count * sizeof *points);
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(m));
+  void *scratch = malloc(ambulo__lagrangian_scratch_size(m));
   assert_true(zero && points && scratch);
   for (int k = 0; k < nodes.samples; k++) {
     assert_int_equal(
-        ambulo_lagrangian_inverse_dynamics(m, nodes.q + (size_t)k * d, zero, zero,
-                                           &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                             .tau = zero + d,
-                                                             .wrench = wrench,
-                                                             .points = points[0]},
-                                           scratch),
+        ambulo__lagrangian_inverse_dynamics(m, nodes.q + (size_t)k * d, zero, zero,
+                                            &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                              .tau = zero + d,
+                                                              .wrench = wrench,
+                                                              .points = points[0]},
+                                            scratch),
         AMBULO_OK);
     for (int foot = 0; foot < 2; foot++)
       if (ambulo__stride_contact(&nodes, foot, nodes.times[k]))

@@ -3,8 +3,7 @@
  *
  * What comes out is the text of a model file (docs/model-format.md) that loads, with comments that
  * say where it came from and what could not be carried over (docs/guide-import.md). Files are XML
- * and read with expat, an optional library: ambulo_import_available() tells whether this library
- * was built with it.
+ * and read with expat, an optional library: without it every file is E_IO.
  *
  * A tool around the engine: outside the promise of ambulo/ambulo.h. It may change with any release.
  */
@@ -48,9 +47,6 @@ typedef struct ambulo_import_options {
   int overwrite;      /* 1: `output` may be a file that is there and not empty */
 } ambulo_import_options;
 AMBULO_TOOL_DEFAULT(ambulo_import_options);
-
-/* 1 if the library reads XML. */
-AMBULO_API int ambulo_import_available(void);
 
 /* Reads a model file of another program, whose format its root element tells, and writes a model
  * file to `output` (whole or not at all), or returns its text in *text, to be freed with

@@ -111,11 +111,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_motion(
     const ambulo_inverse_options *options, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, const ambulo_inverse_outputs *outputs);
 
-/* The same by default, without forces. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_file(
-    const ambulo_model *model, const char *motion, const char *output,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, char **text);
-
 #ifdef __cplusplus
 }
 #endif

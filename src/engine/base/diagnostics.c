@@ -56,7 +56,7 @@ static void clear_item(ambulo_diagnostics *list, ambulo_diagnostic *item) {
   memset(item, 0, sizeof *item);
 }
 
-void ambulo_diagnostics_clear(ambulo_diagnostics *list) {
+void ambulo__diagnostics_clear(ambulo_diagnostics *list) {
   if (!list) return;
   for (size_t i = 0; i < list->count; i++) clear_item(list, &list->items[i]);
   for (int i = 0; i < RESERVES; i++) list->reserves[i].used = 0;
@@ -66,7 +66,7 @@ void ambulo_diagnostics_clear(ambulo_diagnostics *list) {
 void ambulo_diagnostics_free(ambulo_diagnostics *list) {
   if (!list) return;
   ambulo_allocator a = list->allocator;
-  ambulo_diagnostics_clear(list);
+  ambulo__diagnostics_clear(list);
   ambulo__free(&a, list);
 }
 

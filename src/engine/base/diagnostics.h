@@ -31,6 +31,8 @@ void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *
 void ambulo__note(ambulo_diagnostics *list, ambulo__place place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Empties the list; accepts NULL. */
+void ambulo__diagnostics_clear(ambulo_diagnostics *list);
 /* Adds what is in `from` to `list`, in order. Either may be NULL. */
 void ambulo__diagnostics_append(const ambulo_diagnostics *from, ambulo_diagnostics *list);
 

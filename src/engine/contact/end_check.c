@@ -10,6 +10,7 @@
  *   ground    a corner whose whole chain of coordinates is prescribed stands where these put it:
  *             on the ground where the schedule has it down, not below it elsewhere
  */
+#include "mechanics/lagrangian.h"
 #include "ambulo/mechanics.h"
 #include "contact/bounds.h"
 #include "contact/foot_outline.h"
@@ -195,17 +196,17 @@ static ambulo_status check_ground(const ambulo_problem_definition *d, const int 
   const ambulo_model *model = d->model;
   size_t n = (size_t)model->coordinate_count, points = (size_t)model->point_count;
   double *state = ambulo__alloc(allocator, 4 * n + 6 + 3 * points, sizeof *state);
-  void *scratch = ambulo__alloc_aligned(allocator, 1, ambulo_lagrangian_scratch_size(model));
+  void *scratch = ambulo__alloc_aligned(allocator, 1, ambulo__lagrangian_scratch_size(model));
   ambulo_status status = state && scratch ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) {
     double *place = state + 4 * n + 6;
     for (int i = 0; i < model->coordinate_count; i++) (void)value_at(d, i, 0, final, &state[i]);
-    status = ambulo_lagrangian_inverse_dynamics(model, state, state + n, state + 2 * n,
-                                                &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                                  .tau = state + 3 * n,
-                                                                  .wrench = state + 4 * n,
-                                                                  .points = place},
-                                                scratch);
+    status = ambulo__lagrangian_inverse_dynamics(model, state, state + n, state + 2 * n,
+                                                 &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                                   .tau = state + 3 * n,
+                                                                   .wrench = state + 4 * n,
+                                                                   .points = place},
+                                                 scratch);
     if (!status) status = check_feet(d, active, final, place, list);
   }
   ambulo__free(allocator, state);

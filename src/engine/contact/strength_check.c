@@ -11,6 +11,7 @@
  * with mirrored ends (contact/bounds.h): this pose is symmetric, so its partner is held against its
  * own as well.
  */
+#include "mechanics/lagrangian.h"
 #include "ambulo/mechanics.h"
 #include "base/vector.h"
 #include "contact/gait.h"
@@ -26,7 +27,7 @@ typedef struct standing {
 } standing;
 
 static ambulo_status evaluate(const standing *s) {
-  return ambulo_lagrangian_inverse_dynamics(
+  return ambulo__lagrangian_inverse_dynamics(
       s->model, s->q, s->zero, s->zero,
       &(ambulo_outputs){
           .size = sizeof(ambulo_outputs), .tau = s->tau, .wrench = s->wrench, .points = s->points},
@@ -100,7 +101,7 @@ ambulo_status ambulo__strength_check(const ambulo_problem_definition *d,
   size_t n = (size_t)m->coordinate_count;
   standing s = {.model = m};
   s.q = ambulo__alloc(allocator, 4 * n + 6 + 3 * (size_t)m->point_count, sizeof *s.q);
-  s.scratch = ambulo__alloc_aligned(allocator, 1, ambulo_lagrangian_scratch_size(m));
+  s.scratch = ambulo__alloc_aligned(allocator, 1, ambulo__lagrangian_scratch_size(m));
   ambulo_status status = s.q && s.scratch ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) {
     s.zero = s.q + n;

@@ -10,12 +10,13 @@
 #ifndef AMBULO_LINEAR_BAND_KERNELS_H
 #define AMBULO_LINEAR_BAND_KERNELS_H
 
+#include "mechanics/kernels.h"
 #include <stddef.h>
 
 enum { AMBULO__TILE = 8, AMBULO__CORNER = 2 * AMBULO__TILE * AMBULO__TILE };
 
 typedef struct ambulo__band_kernels {
-  const char *name; /* as ambulo_instruction_set() */
+  const char *name; /* as ambulo__instruction_set() */
   /* A = L L' in place; tiles below each corner of L that are not zero into below [n / 8], the
    * inverses of the corners into corner [n / 8][AMBULO__CORNER]. 0, or 1 when A is not positive
    * definite. */

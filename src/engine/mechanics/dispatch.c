@@ -40,6 +40,6 @@ const ambulo__kernels *ambulo__kernels_select(void) {
   return set;
 }
 
-const char *ambulo_instruction_set(void) {
+const char *ambulo__instruction_set(void) {
   return ambulo__kernels_select()->name;
 }

@@ -12,4 +12,8 @@ extern const ambulo__kernels ambulo__kernels_avx2;
 extern const ambulo__kernels ambulo__kernels_avx512;
 #endif
 
+/* Name of the selected set: "avx512", "avx2", "baseline" or "scalar". The best that the processor
+ * has, or what AMBULO_ISA in the environment names. */
+const char *ambulo__instruction_set(void);
+
 #endif

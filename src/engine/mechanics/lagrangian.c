@@ -29,10 +29,11 @@
 #include "ambulo/mechanics.h"
 #include "base/sized.h"
 #include "mechanics/lagrangian.h"
+#include "mechanics/lagrangian_state.h"
 #include "model/model.h"
 
 /* Scratch: link states, then tau [coordinates], then point positions [points][3]. */
-size_t ambulo_lagrangian_scratch_size(const ambulo_model *model) {
+size_t ambulo__lagrangian_scratch_size(const ambulo_model *model) {
   if (!model) return 0;
   return (size_t)model->link_count * sizeof(link_state) +
          ((size_t)model->coordinate_count + 3 * (size_t)model->point_count) * sizeof(scalar);
@@ -245,22 +246,24 @@ static ambulo_status inverse_dynamics(const ambulo_model *model, int is_complex,
   return AMBULO_OK;
 }
 
-ambulo_status ambulo_lagrangian_inverse_dynamics(const ambulo_model *model, const double *q,
-                                                 const double *qd, const double *qdd,
-                                                 const ambulo_outputs *outputs, void *scratch) {
+ambulo_status ambulo__lagrangian_inverse_dynamics(const ambulo_model *model, const double *q,
+                                                  const double *qd, const double *qdd,
+                                                  const ambulo_outputs *outputs, void *scratch) {
   return inverse_dynamics(model, 0, q, qd, qdd, outputs, scratch);
 }
 
-ambulo_status ambulo_lagrangian_inverse_dynamics_complex(const ambulo_model *model, const double *q,
-                                                         const double *qd, const double *qdd,
-                                                         const ambulo_outputs *outputs,
-                                                         void *scratch) {
+ambulo_status ambulo__lagrangian_inverse_dynamics_complex(const ambulo_model *model,
+                                                          const double *q, const double *qd,
+                                                          const double *qdd,
+                                                          const ambulo_outputs *outputs,
+                                                          void *scratch) {
   return inverse_dynamics(model, 1, q, qd, qdd, outputs, scratch);
 }
 
 /* (E): T = sum tr(B J B^T) / 2,  V = -sum m g . c. */
-ambulo_status ambulo_lagrangian_energy(const ambulo_model *model, const double *q, const double *qd,
-                                       double *kinetic, double *potential, void *scratch) {
+ambulo_status ambulo__lagrangian_energy(const ambulo_model *model, const double *q,
+                                        const double *qd, double *kinetic, double *potential,
+                                        void *scratch) {
   if (!model || !scratch) return AMBULO_E_ARGUMENT;
   if (model->coordinate_count > 0 && (!q || !qd)) return AMBULO_E_ARGUMENT;
   link_state *states = scratch;

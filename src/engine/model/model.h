@@ -81,4 +81,7 @@ double ambulo__model_load_mass(const ambulo_model *model);
 /* The body weight m |g|, N: what forces are measured by. */
 double ambulo__model_weight(const ambulo_model *model);
 
+/* Index of a patch by its name; -1: none. */
+int ambulo__find_patch(const ambulo_model *model, const char *name);
+
 #endif

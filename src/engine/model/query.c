@@ -84,16 +84,9 @@ int ambulo_model_find_foot(const ambulo_model *model, const char *name) {
   return -1;
 }
 
-int ambulo_model_find_patch(const ambulo_model *model, const char *name) {
+int ambulo__find_patch(const ambulo_model *model, const char *name) {
   for (int i = 0; model && name && i < model->patch_count; i++) {
     if (strcmp(model->patches[i].name, name) == 0) return i;
-  }
-  return -1;
-}
-
-int ambulo_model_find_capsule(const ambulo_model *model, const char *name) {
-  for (int i = 0; model && name && i < model->capsule_count; i++) {
-    if (strcmp(model->capsules[i].name, name) == 0) return i;
   }
   return -1;
 }

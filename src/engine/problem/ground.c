@@ -110,7 +110,3 @@ ambulo__pressure ambulo__contact_pressure(const ambulo_problem *p,
   place_pressure(&frame, moment, &at);
   return at;
 }
-
-const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_problem *p) {
-  return &p->definition.ground_reaction;
-}

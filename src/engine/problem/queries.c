@@ -94,23 +94,6 @@ ambulo_status ambulo_problem_row(const ambulo_problem *p, int index, ambulo_row 
   return AMBULO_OK;
 }
 
-static int has_times(const ambulo_problem_definition *d) {
-  return d->model && d->intervals >= 1 && d->duration > 0.0 && d->contact_count >= 0 &&
-         (d->contact_count == 0 || d->contacts) &&
-         (d->grid == AMBULO_GRID_UNIFORM || d->grid == AMBULO_GRID_EVENTS);
-}
-
-ambulo_status ambulo_node_times(const ambulo_problem_definition *definition, double *times) {
-  ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  ambulo__taken_definition own;
-  if (!definition || !times) return AMBULO_E_ARGUMENT;
-  ambulo_status status = ambulo__definition_take(definition, NULL, &own);
-  if (!status && !has_times(&own.definition)) status = AMBULO_E_ARGUMENT;
-  if (!status) status = ambulo__node_times(&own.definition, &a, NULL, times);
-  ambulo__definition_drop(&own);
-  return status;
-}
-
 double ambulo_problem_node_time(const ambulo_problem *p, int node) {
   return node >= 0 && node < p->nodes ? p->times[node] : (double)NAN;
 }
@@ -132,20 +115,6 @@ int ambulo__node_at(const ambulo_problem *p, double time, double *between) {
   double part = (time - p->times[low]) / (p->times[low + 1] - p->times[low]);
   *between = fmin(1.0, fmax(0.0, part));
   return low;
-}
-
-static int contact_index(const ambulo_problem *p, int effector, double time) {
-  const ambulo_contact *contact = ambulo__contact_of(&p->definition, effector, time);
-  return contact ? (int)(contact - p->definition.contacts) : -1;
-}
-
-int ambulo_problem_contact_at(const ambulo_problem *p, int foot, double time) {
-  return foot >= 0 && foot < p->model->foot_count ? contact_index(p, foot, time) : -1;
-}
-
-int ambulo_problem_patch_contact_at(const ambulo_problem *p, int patch, double time) {
-  int known = patch >= 0 && patch < p->model->patch_count;
-  return known ? contact_index(p, p->model->foot_count + patch, time) : -1;
 }
 
 /* how many there are; the index-th one into *pair */

@@ -1,4 +1,5 @@
 /* solver/free_outcome.c - see outcome.h. */
+#include "solver/verdict.h"
 #include "solver/free_outcome.h"
 #include "base/clock.h"
 #include "solver/result.h"
@@ -19,7 +20,7 @@ typedef struct ambulo__outcome {
 static const char *why(const ambulo__outer *run) {
   if (!(run->best.objective < HUGE_VAL))
     return "the first solve found no motion that holds, so that nothing was varied";
-  if (run->ending != AMBULO_ENDING_NONE) return ambulo_ending_text(run->ending);
+  if (run->ending != AMBULO_ENDING_NONE) return ambulo__ending_text(run->ending);
   if (run->converged) return "the gradient is small, or points out of the bounds";
   if (run->settled) return "objective and parameters settled";
   return "no better values were found";

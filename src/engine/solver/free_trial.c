@@ -116,7 +116,7 @@ static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, cons
   options.progress = show;
   options.user = run;
   if (options.time_limit > 0.0) options.time_limit = fmax(1e-3, options.time_limit - elapsed(run));
-  ambulo_diagnostics_clear(t->messages);
+  ambulo__diagnostics_clear(t->messages);
   ambulo_status status =
       ambulo_solve(t->problem, &options, start, &run->allocator, t->messages, &result);
   if (status) return status;

@@ -53,7 +53,7 @@ static void describe(const ambulo__session *s) {
   if (s->nlopt && !run->stopped)
     (void)snprintf(message, sizeof message, " (its last call: %s)", s->nlopt);
   (void)snprintf(r->ending, sizeof r->ending, "%s%s: %s%s; %d iterations, %d evaluations%s%s",
-                 s->method, message, ambulo_ending_text(run->ending), limit, run->iterations,
+                 s->method, message, ambulo__ending_text(run->ending), limit, run->iterations,
                  run->evaluations, dropped, s->note);
 }
 

@@ -1,4 +1,5 @@
 /* solver/suggest_feet.c - what helps rows on feet: footholds, contacts, penetration, clearance. */
+#include "model/model.h"
 #include "solver/suggest.h"
 
 #include "contact/contact_frame.h"
@@ -109,7 +110,7 @@ static void foothold(const ambulo__advice *a) {
 static void contact_place(const ambulo__advice *a) {
   double old = a->problem->definition.contact_tolerance;
   double wide = ambulo__outward(old + a->room, 1);
-  int is_patch = ambulo_model_find_patch(a->problem->model, a->row->subject) >= 0;
+  int is_patch = ambulo__find_patch(a->problem->model, a->row->subject) >= 0;
   ambulo__advice_say(a, "%s at t = %.4g s is %.4g m further %s than its contact lets it: %s%s",
                      a->row->subject, a->row->time, a->give, a->row->detail,
                      is_patch ? "move its place, or change the time of its contact"

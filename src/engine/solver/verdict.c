@@ -27,7 +27,7 @@ int ambulo_verdict_is_solution(ambulo_verdict verdict) {
   return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE;
 }
 
-const char *ambulo_ending_name(ambulo_ending ending) {
+const char *ambulo__ending_name(ambulo_ending ending) {
   static const char *const names[] = {
 #define NAME(id, name, text) name,
       AMBULO_ENDING_LIST(NAME)
@@ -37,7 +37,7 @@ const char *ambulo_ending_name(ambulo_ending ending) {
   return names[ending];
 }
 
-const char *ambulo_ending_text(ambulo_ending ending) {
+const char *ambulo__ending_text(ambulo_ending ending) {
   static const char *const texts[] = {
 #define TEXT(id, name, text) text,
       AMBULO_ENDING_LIST(TEXT)
