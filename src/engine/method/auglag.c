@@ -17,15 +17,11 @@
  *              point where it ended: the metric there, whose rows with a force are those that the
  *              model step foresees. NLopt's point does not move by that, and its L-BFGS starts
  *              afresh at every inner solve.
- *   gradients  NLopt adds to the objective's gradient each row's, times its force rho c + nu. That
- *              sum is one reverse sweep, each gradient alone would be one too, and for each row
- *              with a force, however many zeros its gradient has, NLopt adds n numbers: work in
- *              proportion to the square of the intervals. So where NLopt asks for gradients the row
- *              with the largest force stands for all: its force is the root of the sum of squares,
- *              which is what they add to the value, its gradient the sum, divided by that force;
- *              the others say that they hold. With the objective when no row has a force. Where
- *              NLopt asks for none, between two inner solves, each row has its own value: from
- *              these NLopt updates nu and rho. Forces by nu and rho as mirror.h knows them.
+ *   gradients  where NLopt asks for gradients one row stands for all that have a force (mirror.h);
+ *              the objective when none has. Where NLopt asks for none, between two inner solves,
+ *              each row has its own value: from these NLopt updates nu and rho. Should NLopt's nu
+ *              and rho not be those of mirror.h, which its first step of an inner solve tells, the
+ *              call is begun anew and each row is given its own gradient.
  *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
  *              walks stand (docs/solver.md: left alone it stops some of them too high). S is
  *              lowered in the same moment, for objective and rows alike: lambda stays, and R
@@ -71,8 +67,13 @@ struct drive {
   double *x;           /* where the last inner solve ended; the caller's */
   double *w;           /* [n]: NLopt's point, in and out */
   double *gradient;    /* [n]: where NLopt asks for none */
-  double *borne;       /* [n]: the sum of all rows, as row `bearer` is given it */
-  int bearer;          /* -1: the objective */
+  double *first;       /* [n]: at the first trial of an inner solve, what NLopt is to make of it */
+  double *pooled;      /* [n]: of all rows, given to row `of_all` */
+  int of_all;          /* -1: the objective */
+  double *one;         /* [inequalities]: weight of a single row, else zero */
+  double *l;           /* [equalities]: its multipliers */
+  int *violated;       /* [inequalities]: at an update, so that it may have a multiplier */
+  int flat;            /* the gradient counts as zero */
   int dirty;           /* slot of NLopt's one buffer for all blocks that is not zero; -1: none */
   double scale, constant;
   double damping;   /* the engine's mu at the beginning */
@@ -80,6 +81,7 @@ struct drive {
   double tried;     /* F at the model step, NLopt's first trial */
   int trials;       /* with gradient, since the chart was laid */
   int started, lay; /* NLopt knows rho; the chart is to be laid at NLopt's next point */
+  int anew;         /* the call is to be repeated with own gradients */
   ambulo_ending ending;
   double seconds; /* spent in callbacks */
 };
@@ -123,6 +125,7 @@ static void take_multipliers(drive *s) {
 /* (P.12): NLopt's update, and the growth of R that it leads to */
 static void update_multipliers(drive *s) {
   ambulo__engine *e = s->engine;
+  for (int i = 0; i < s->mirror.rows; i++) s->violated[i] |= s->row[i] > 0.0;
   if (ambulo__mirror_update(&s->mirror, s->row)) {
     double room = s->stopping->penalty_limit / e->iterate.rho;
     s->scale *= fmax(1.0, fmin(AMBULO__PENALTY_GROWTH, room)) / AMBULO__NLOPT_GROWTH;
@@ -162,7 +165,7 @@ static void inner_ended(drive *s, double value) {
 /* ---------------------------------------------------------------- what NLopt asks */
 
 static int is_over(const drive *s) {
-  return s->ending != AMBULO_ENDING_NONE || s->engine->run->stopped;
+  return s->ending != AMBULO_ENDING_NONE || s->anew || s->engine->run->stopped;
 }
 
 /* ends NLopt's line search and then NLopt */
@@ -186,28 +189,6 @@ static double value_of(const drive *s, double merit) {
   return s->scale * (held->value < HUGE_VAL ? held->objective : merit) + s->constant;
 }
 
-/* Moves what all forces add, to value and gradient, to the row whose force is largest; the others
- * say that they hold by far: for each row with a force NLopt would add n zeros. */
-static void give_to_bearer(drive *s, unsigned n, double *gradient) {
-  const ambulo__mirror *m = &s->mirror;
-  double largest = 0.0, squares = 0.0;
-  s->bearer = -1;
-  for (int i = 0; i < m->rows; i++) {
-    double force = s->row[i] + m->multiplier[i] / m->penalty;
-    if (!(force > 0.0)) continue;
-    squares += force * force;
-    s->row[i] = -HUGE_VAL;
-    if (!(force > largest)) continue;
-    largest = force;
-    s->bearer = i;
-  }
-  if (s->bearer < 0) return;
-  double force = sqrt(squares);
-  s->row[s->bearer] = force - m->multiplier[s->bearer] / m->penalty;
-  for (unsigned j = 0; j < n; j++) s->borne[j] = gradient[j] / (m->penalty * force);
-  memset(gradient, 0, n * sizeof *gradient);
-}
-
 /* a trial of L-BFGS */
 static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   ambulo__engine *e = s->engine;
@@ -218,13 +199,26 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   e->run->nlopt.inner++;
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
-  if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
   double least = AMBULO__GRADIENT_NONE * e->run->options->optimality_tolerance *
                  fmax(1.0, fabs(held->objective));
-  if (held->value < HUGE_VAL && held->gradient_norm <= least)
-    memset(gradient, 0, n * sizeof *gradient);
+  s->flat = held->value < HUGE_VAL && held->gradient_norm <= least;
+  if (s->flat) memset(gradient, 0, n * sizeof *gradient);
+  if (++s->trials == 1) memcpy(s->first, gradient, n * sizeof *gradient);
+  if (s->trials == 2) {
+    s->tried = fmin(merit, s->chart.start);
+    s->anew = !e->run->own_gradients && !ambulo__mirror_agrees(n, s->chart.origin, w, s->first);
+    e->run->own_gradients |= s->anew;
+    if (s->anew) return give_up(s, n, gradient);
+  }
   take_rows(s);
-  give_to_bearer(s, n, gradient);
+  if (e->run->own_gradients) {
+    double scale = s->scale * e->setup->objective_scale;
+    if (held->value < HUGE_VAL && !s->flat)
+      ambulo__chart_gradient(&s->chart, e, scale, NULL, s->l, gradient);
+  } else {
+    s->of_all = ambulo__mirror_pool(&s->mirror, s->row, n, gradient, s->pooled);
+    if (s->of_all >= 0) memset(gradient, 0, n * sizeof *gradient);
+  }
   return value_of(s, merit);
 }
 
@@ -258,21 +252,39 @@ static double objective(unsigned n, const double *w, double *gradient, void *dat
   return value;
 }
 
+/* gradients of rows, each its own: of those that have a force, or may have one */
+static void own_gradients(drive *s, const block *b, unsigned n, double *gradient) {
+  memset(gradient, 0, (size_t)b->count * n * sizeof *gradient);
+  if (!(s->engine->held->trial.value < HUGE_VAL) || s->flat) return;
+  for (int k = 0; k < b->count; k++) {
+    int i = b->first + k;
+    if (!(s->row[i] > 0.0) && !s->violated[i]) continue;
+    s->one[i] = s->scale;
+    memset(s->l, 0, (size_t)s->engine->setup->equalities * sizeof *s->l);
+    ambulo__chart_gradient(&s->chart, s->engine, 0.0, s->one, s->l, gradient + (size_t)k * n);
+    s->one[i] = 0.0;
+  }
+}
+
 /* NLopt asks for the rows right after the objective, at the same point */
 static void rows(unsigned m, double *result, unsigned n, const double *w, double *gradient,
                  void *data) {
   const block *b = data;
   drive *s = b->drive;
-  int slot = s->bearer - b->first;
+  int slot = s->of_all - b->first;
   (void)w;
   memcpy(result, s->row + b->first, m * sizeof *result);
   if (!gradient) return;
+  if (s->engine->run->own_gradients) {
+    own_gradients(s, b, n, gradient);
+    return;
+  }
   if (s->dirty >= 0 && s->dirty < (int)m) { /* of another block; NLopt clears it once, at first */
     memset(gradient + (size_t)s->dirty * n, 0, n * sizeof *gradient);
     s->dirty = -1;
   }
-  if (s->bearer < 0 || slot < 0 || slot >= (int)m) return;
-  memcpy(gradient + (size_t)slot * n, s->borne, n * sizeof *gradient);
+  if (s->of_all < 0 || slot < 0 || slot >= (int)m) return;
+  memcpy(gradient + (size_t)slot * n, s->pooled, n * sizeof *gradient);
   s->dirty = slot;
 }
 
@@ -319,7 +331,8 @@ static ambulo_ending prepare(drive *s) {
   double penalty = AMBULO__NLOPT_LEAST_PENALTY, violated = 0.0;
   memset(s->w, 0, (size_t)e->setup->n * sizeof *s->w);
   s->started = inequalities == 0; /* NLopt does not ask then */
-  s->bearer = s->dirty = -1;
+  s->of_all = s->dirty = -1;
+  s->anew = 0;
   s->scale = iterate->rho / penalty;
   ambulo_ending failed = lay_chart(s, s->w);
   if (failed) return failed;
@@ -349,7 +362,11 @@ static ambulo_status create(drive *s, ambulo__pool *pool) {
   s->shift = ambulo__pool_doubles(pool, m);
   s->w = ambulo__pool_doubles(pool, n);
   s->gradient = ambulo__pool_doubles(pool, n);
-  s->borne = ambulo__pool_doubles(pool, n);
+  s->first = ambulo__pool_doubles(pool, n);
+  s->pooled = ambulo__pool_doubles(pool, n);
+  s->one = ambulo__pool_doubles(pool, m);
+  s->l = ambulo__pool_doubles(pool, (size_t)e->setup->equalities);
+  s->violated = ambulo__pool_ints(pool, m);
   ambulo_status status = ambulo__chart_create(e->setup->n, pool, &s->chart);
   if (!status) status = ambulo__mirror_create(inequalities, pool, &s->mirror);
   if (status || pool->failed) return AMBULO_E_MEMORY;

@@ -4,6 +4,7 @@
 #include "method/engine_point.h"
 #include "method/model_step.h"
 #include "method/parameters.h"
+#include "method/retraction.h"
 
 #include <math.h>
 #include <string.h>
@@ -48,14 +49,29 @@ int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, doub
   return 1;
 }
 
+/* by whitened coordinates to by w */
+static void turn_gradient(const ambulo__chart *c, int n, double *gradient) {
+  double turned = dot(c->step, gradient, n);
+  for (int j = 0; j < n; j++) gradient[j] = (gradient[j] + turned * c->turn[j]) / c->stretch;
+}
+
 double ambulo__chart_value(ambulo__chart *c, ambulo__engine *e, const double *w, double *gradient) {
   int n = e->setup->n;
   for (int j = 0; j < n; j++) c->whitened[j] = (w[j] - c->origin[j]) / c->stretch;
   double turned = dot(c->turn, c->whitened, n);
   for (int j = 0; j < n; j++) c->whitened[j] += turned * c->step[j];
   double value = ambulo__augmented(e, c->whitened, gradient);
-  if (!gradient) return value;
-  turned = dot(c->step, gradient, n);
-  for (int j = 0; j < n; j++) gradient[j] = (gradient[j] + turned * c->turn[j]) / c->stretch;
+  if (gradient) turn_gradient(c, n, gradient);
   return value;
+}
+
+void ambulo__chart_gradient(const ambulo__chart *c, ambulo__engine *e, double scale,
+                            const double *p, double *l, double *gradient) {
+  int n = e->setup->n;
+  if (ambulo__reduced_gradient(e, scale, p, l, gradient)) {
+    memset(gradient, 0, (size_t)n * sizeof *gradient);
+    return;
+  }
+  ambulo__band_upper_multiply(&e->linearized.whitener, gradient);
+  turn_gradient(c, n, gradient);
 }

@@ -42,5 +42,9 @@ int ambulo__chart_lay(ambulo__chart *chart, ambulo__engine *engine, const double
 /* F at NLopt's w, and gradient [n]; the point in engine->held. As ambulo__augmented. */
 double ambulo__chart_value(ambulo__chart *chart, ambulo__engine *engine, const double *w,
                            double *gradient);
+/* Gradient by NLopt's w of scale f + sum p v at the point in engine->held. scale, p and l as in
+ * ambulo__reduced_gradient; zero where it is not finite. */
+void ambulo__chart_gradient(const ambulo__chart *chart, ambulo__engine *engine, double scale,
+                            const double *p, double *l, double *gradient);
 
 #endif

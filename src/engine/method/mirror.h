@@ -8,9 +8,20 @@
  *     after every inner solve  I' = max |max(c, -nu / rho)|,  nu <- max(0, nu + rho c),
  *                              rho <- 10 rho where I' > I / 2
  *
- * Every operation in NLopt's order, so that the numbers are NLopt's to the last bit. They are
- * needed to whiten with the rows that are going to be active, and to put the gradients of all rows
- * into one reverse sweep. Nothing here acts on NLopt.
+ * Every operation stands in NLopt's order, so that the numbers are NLopt's to the last bit
+ * (tests/method/test_mirror.c, which sees NLopt's own). They are needed to whiten with the rows
+ * that are going to be active, to lower the scale S where rho grows, and to pool gradients:
+ *
+ * NLopt adds to the objective's gradient each row's, times its force rho c + nu. That sum is one
+ * reverse sweep, each gradient alone would be one too, and for each row with a force, however many
+ * zeros its gradient has, NLopt adds n numbers: work in proportion to the square of the intervals.
+ * So where NLopt asks for gradients one row stands for all, the one with the largest force: its
+ * force is the root of the sum of squares, which is what they add to the value, its gradient the
+ * sum, divided by that force; the others say that they hold.
+ *
+ * Another NLopt may do otherwise. Then its first step of an inner solve tells: L-BFGS begins with
+ * minus the gradient that NLopt has formed. Where that is not the gradient that the mirror says,
+ * auglag.c gives each row its own gradient from then on.
  */
 #ifndef AMBULO_METHOD_MIRROR_H
 #define AMBULO_METHOD_MIRROR_H
@@ -37,5 +48,13 @@ ambulo_status ambulo__mirror_create(int rows, ambulo__pool *pool, ambulo__mirror
 void ambulo__mirror_start(ambulo__mirror *mirror, double f, const double *row);
 /* The rows where an inner solve ended. 1 when the penalty has grown. */
 int ambulo__mirror_update(ambulo__mirror *mirror, const double *row);
+/* Rewrites the rows where NLopt asks for gradients: `gradient` [n] is the sum of all rows'
+ * gradients times their forces and the objective's. Returns the row that stands for all, `pooled`
+ * its gradient; -1: no row has a force, the objective has it all. */
+int ambulo__mirror_pool(const ambulo__mirror *mirror, double *row, unsigned n,
+                        const double *gradient, double *pooled);
+/* Whether NLopt's first step of an inner solve, from one point [n] to another, is minus this
+ * gradient, but for rounding. */
+int ambulo__mirror_agrees(unsigned n, const double *from, const double *to, const double *gradient);
 
 #endif

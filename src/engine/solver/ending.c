@@ -2,6 +2,8 @@
 #include "solver/ending.h"
 #include "solver/verdict.h"
 
+#include <nlopt.h>
+
 void ambulo__report_families(const ambulo_result *r, double tolerance, ambulo_diagnostics *list) {
   if (r->verdict != AMBULO_INFEASIBLE) return;
   for (int f = 0; f < r->families; f++) {
@@ -26,6 +28,15 @@ void ambulo__ending_of_faults(ambulo__run *run) {
 
 void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diagnostics *list) {
   char text[AMBULO__FAULT_TEXT];
+  if (run->own_gradients) {
+    int major, minor, patch;
+    nlopt_version(&major, &minor, &patch);
+    ambulo__note(
+        list, ambulo__nowhere,
+        "NLopt %d.%d.%d does not form the multipliers that NLopt 2.7.1 forms; each row was "
+        "given its own gradient, which takes longer",
+        major, minor, patch);
+  }
   if (r->verdict == AMBULO_NUMERIC_FAILURE && r->audit.fault.kind == AMBULO_FAULT_NONE)
     r->audit.fault = run->fault;
   if (r->audit.fault.kind != AMBULO_FAULT_NONE) {
