@@ -2,7 +2,7 @@
  * variant of one has, against lists written out here; and rows of the caller. */
 #include "contact/row_kind.h"
 #include "ambulo/tools/load.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "support/problem_path.h"
 #include "support/engine_fixture.h"
 

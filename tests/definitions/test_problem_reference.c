@@ -1,6 +1,6 @@
 /* Tracking references: interpolation, units, missing columns, refusals. */
 #include "definitions/problem_text.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "support/scratch.h"
 
 /* loads a walker that tracks `table`, written to the scratch folder */

@@ -1,6 +1,6 @@
 /* Multipliers of one grid for another: densities over time, by the rows' labels. */
 #include "method/carry.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "support/engine_fixture.h"
 
 static const ambulo__table_row *row_of(const ambulo__engine *e, int i) {

@@ -1,5 +1,5 @@
 /* Building: what is refused and how it is said; copies; memory running out; the hash. */
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/planar_walker.h"

@@ -1,7 +1,7 @@
 /* Terms and rows of the caller on a problem of a file: it is the problem whose file says the same,
  * and all that the file gave stays, free parameters too. */
 #include "ambulo/tools/load.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "support/fail_alloc.h"
 #include "support/outer_fixture.h"
 #include "support/problem_fixture.h"

@@ -1,6 +1,6 @@
 /* The ground's force between the nodes: of motions whose force is known, and of a walk by another
  * route (ambulo_problem_motion). */
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "solver/dense.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"

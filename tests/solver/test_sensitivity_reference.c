@@ -11,7 +11,7 @@
  */
 #include "ambulo/tools/load.h"
 #include "ambulo/sensitivity.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "solver/result.h"
 #include "support/test.h"
 

@@ -2,7 +2,7 @@
 #include "solver/solve_memory.h"
 #include "ambulo/tools/load.h"
 #include "base/free_memory.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"

@@ -10,7 +10,7 @@
 #include "ambulo/tools/tools.h"
 #include "contact/flight.h"
 #include "mechanics/pose.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 
 typedef struct run {
   ambulo_problem *problem;

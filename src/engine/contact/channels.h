@@ -3,7 +3,7 @@
  * A channel is one scalar quantity at every node: a coordinate, its rates, a
  * torque, a component of the root wrench or of a point's position. Constraint rows
  * and objective terms are functions of channels; the chain rule from channels to
- * unknowns is then written once (problem/evaluate.c, problem/local_rows.c).
+ * unknowns is then written once (problem/evaluate.c, problem/row_gradients.c).
  *
  * Storage: [block][channel][lane] (base/lanes.h).
  *

@@ -18,7 +18,7 @@
  * so that a row of tau above contacts has nine, too, made of theirs with a minus. The centre of
  * mass moves with q_j by dF/dqdd_j over the mass (plan_contacts.c). Only the factors are written:
  * multiplied out the rows would be the larger part of all entries. Who reads a row multiplies them
- * out (problem/output_gradient.c).
+ * out (problem/row_gradients.c).
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_CONTACTS_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_CONTACTS_H

@@ -16,7 +16,7 @@
 #include "method/carry.h"
 #include "method/parameters.h"
 #include "method/pipeline.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "problem/callbacks.h"
 
 #include <math.h>

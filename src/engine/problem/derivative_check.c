@@ -13,7 +13,7 @@
  * for grids of a few hundred unknowns.
  */
 #include "base/worst.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 
 #include <float.h>
 #include <math.h>

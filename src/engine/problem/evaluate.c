@@ -15,7 +15,7 @@
 #include "base/worst.h"
 #include "problem/callbacks.h"
 #include "problem/nonfinite.h"
-#include "problem/held.h"
+#include "problem/hold_wrench.h"
 #include "problem/nlp.h"
 
 #include <math.h>
@@ -29,14 +29,14 @@ static double channel_at(const ambulo_workspace *workspace, int node, int channe
   return workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
 }
 
-void ambulo__mechanics_block(const ambulo_problem *p, const double *ground, const double *told,
+void ambulo__mechanics_block(const ambulo_problem *p, const double *ground, const double *factors,
                              int block, double *c, double *scratch, double *room) {
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
-  const double *of_block = ambulo__told_block(p, told, block);
-  ambulo__held_begin(p, of_block, c, scratch, room);
+  const double *of_block = ambulo__time_factor_block(p, factors, block);
+  ambulo__hold_wrench_begin(p, of_block, c, scratch, room);
   p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, ground, block),
                       c + 3 * d8, scratch);
-  ambulo__held_end(p, c, room);
+  ambulo__hold_wrench_end(p, c, room);
   if (!p->devices) return;
   double *effort = c + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
   ambulo__devices_apply(p->devices, c, c + d8, of_block, c + 3 * d8, effort, room);
@@ -49,7 +49,7 @@ static void compute_channels(ambulo_workspace *workspace, const double *x) {
   double *c = workspace->channel;
   ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
   for (int block = 0; block < p->blocks; block++)
-    ambulo__mechanics_block(p, p->ground, p->told, block, block_of(workspace, c, block),
+    ambulo__mechanics_block(p, p->ground, p->time_factors, block, block_of(workspace, c, block),
                             workspace->scratch, workspace->device_scratch);
 }
 
@@ -213,8 +213,8 @@ static void keep_devices(ambulo_workspace *workspace) {
   for (int k = 0; k < p->nodes; k++) {
     const double *q = workspace->channel + ambulo__lane_index(k, workspace->channel_count, 0);
     ambulo__devices_keep(p->devices, q, q + (size_t)p->coordinates * AMBULO__LANES,
-                         p->told + ambulo__lane_index(k, ambulo__told_entries(p), 0),
-                         workspace->device_kept + (size_t)k * entries);
+                         p->time_factors + ambulo__lane_index(k, ambulo__time_factor_entries(p), 0),
+                         workspace->device_states + (size_t)k * entries);
   }
 }
 
@@ -229,13 +229,13 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     double *c = block_of(workspace, workspace->channel, b);
     size_t all = (size_t)b * (size_t)pattern.count * AMBULO__LANES;
     size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
-    ambulo__held_begin(p, ambulo__told_block(p, p->told, b), c, workspace->scratch,
-                       workspace->device_scratch);
+    ambulo__hold_wrench_begin(p, ambulo__time_factor_block(p, p->time_factors, b), c,
+                              workspace->scratch, workspace->device_scratch);
     p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, b),
                          workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
                          workspace->scratch);
     ambulo__wrench_gather(workspace, b);
-    ambulo__held_gather(workspace, b);
+    ambulo__hold_wrench_gather(workspace, b);
   }
   if (p->devices) keep_devices(workspace);
   workspace->jacobians++;

@@ -13,7 +13,7 @@
 #include "base/worst.h"
 #include "problem/callbacks.h"
 #include "problem/nonfinite.h"
-#include "problem/held.h"
+#include "problem/hold_wrench.h"
 
 #include <string.h>
 
@@ -132,19 +132,19 @@ void ambulo__adjoint_block(ambulo_workspace *workspace, int block) {
   double *c = workspace->channel + offset, *w = workspace->weight + offset;
   double *g = workspace->gradient_lanes;
   const double *ground = ambulo__ground_block(p, p->ground, block);
-  const double *told = ambulo__told_block(p, p->told, block);
+  const double *factors = ambulo__time_factor_block(p, p->time_factors, block);
   double *room = workspace->device_scratch;
-  ambulo__held_begin(p, told, c, workspace->scratch, room);
+  ambulo__hold_wrench_begin(p, factors, c, workspace->scratch, room);
   p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, ground, c + 3 * d8, workspace->scratch);
   p->kernels->reverse(p->plan, c + d8, c + 2 * d8, ground, w + 3 * d8, g, g + d8, g + 2 * d8,
                       workspace->scratch);
   for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
-  ambulo__held_end(p, c, room);
-  ambulo__held_reverse(p, w, workspace->scratch, room);
+  ambulo__hold_wrench_end(p, c, room);
+  ambulo__hold_wrench_reverse(p, w, workspace->scratch, room);
   if (!p->devices) return;
   const double *effort = w + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
   const ambulo__device_adjoints adjoints = {w + 3 * d8, effort, w, w + d8};
-  ambulo__devices_reverse(p->devices, c, c + d8, told, c + 3 * d8, &adjoints, room);
+  ambulo__devices_reverse(p->devices, c, c + d8, factors, c + 3 * d8, &adjoints, room);
 }
 
 void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {

@@ -19,7 +19,7 @@
  * r_from)_b ends on segments that move against each other: P r_from,a = r_from,b and P r_to,a =
  * r_to,b, on m(s_from) and m(s_to); or to and from changed
  *
- * at q = 0: a rigid line is told by its direction, one over joints by the place of either end.
+ * at q = 0: a rigid line is known by its direction, one over joints by the place of either end.
  */
 
 #include "contact/devices.h"

@@ -16,7 +16,7 @@
 
 typedef struct dense {
   ambulo__lane_map *map;
-  double *channel, *scratch, *ground, *told, *room;
+  double *channel, *scratch, *ground, *factors, *room;
 } dense;
 
 static void dense_free(const ambulo_allocator *a, dense *d) {
@@ -24,7 +24,7 @@ static void dense_free(const ambulo_allocator *a, dense *d) {
   ambulo__free_aligned(a, d->channel);
   ambulo__free_aligned(a, d->scratch);
   ambulo__free_aligned(a, d->ground);
-  ambulo__free_aligned(a, d->told);
+  ambulo__free_aligned(a, d->factors);
   ambulo__free_aligned(a, d->room);
 }
 
@@ -36,10 +36,10 @@ static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocato
   d->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof(double));
   ambulo_status status =
       ambulo__lane_map_create(p->basis, times, count, p->coordinates, a, &d->map);
-  d->room = ambulo__alloc_aligned(a, ambulo__room(p), sizeof(double));
+  d->room = ambulo__alloc_aligned(a, ambulo__device_scratch_size(p), sizeof(double));
   if (!status && (!d->channel || !d->scratch || !d->room)) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__ground_fill(p, a, times, count, &d->ground);
-  if (!status) status = ambulo__devices_tell(&p->definition, a, times, count, &d->told);
+  if (!status) status = ambulo__devices_tell(&p->definition, a, times, count, &d->factors);
   return status;
 }
 
@@ -143,10 +143,10 @@ static void fill_devices(const ambulo_problem *p, const dense *d, int k,
                          const ambulo_motion *motion) {
   int channels = ambulo__channel_count(&p->channels), n = p->channels.devices;
   const double *q = d->channel + ambulo__lane_index(k, channels, 0);
-  const double *told = d->told + ambulo__lane_index(k, ambulo__told_entries(p), 0);
+  const double *factors = d->factors + ambulo__lane_index(k, ambulo__time_factor_entries(p), 0);
   for (int i = 0; i < n; i++) {
     ambulo__device_state state = ambulo__device_at(
-        p->devices, i, q, q + (size_t)p->coordinates * AMBULO__LANES, told, d->room);
+        p->devices, i, q, q + (size_t)p->coordinates * AMBULO__LANES, factors, d->room);
     size_t at = (size_t)k * (size_t)n + (size_t)i;
     if (motion->device_effort) motion->device_effort[at] = state.effort;
     if (motion->device_along) motion->device_along[at] = state.along;
@@ -159,9 +159,9 @@ static void fill_holds(const ambulo_problem *p, const dense *d, int k,
                        const ambulo_motion *motion) {
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES, n = (size_t)p->definition.hold_count;
   const double *q = d->channel + ambulo__lane_index(k, ambulo__channel_count(&p->channels), 0);
-  const double *told =
-      d->told + ambulo__lane_index(k, ambulo__told_entries(p), p->channels.devices);
-  ambulo__holds_keep(p->holds, q, q + d8, q + 2 * d8, told, d->room);
+  const double *factors =
+      d->factors + ambulo__lane_index(k, ambulo__time_factor_entries(p), p->channels.devices);
+  ambulo__holds_keep(p->holds, q, q + d8, q + 2 * d8, factors, d->room);
   for (size_t i = 0; i < n; i++) {
     ambulo__hold_state state = ambulo__hold_at(p->holds, (int)i, d->room);
     size_t at = (size_t)k * n + i;
@@ -198,7 +198,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
     for (int b = 0; b < ambulo__block_count(count); b++) {
       double *y = d.channel + (size_t)b * stride;
-      ambulo__mechanics_block(p, d.ground, d.told, b, y, d.scratch, d.room);
+      ambulo__mechanics_block(p, d.ground, d.factors, b, y, d.scratch, d.room);
     }
     int finite = unpack(&d, channels, 0, c, count, motion->q);
     finite &= unpack(&d, channels, c, c, count, motion->qd);

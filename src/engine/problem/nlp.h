@@ -20,6 +20,7 @@
 #include "contact/foot_outline.h"
 #include "contact/gait_rule.h"
 #include "mechanics/plan.h"
+#include "problem/definition.h"
 #include "problem/row_runs.h"
 #include "problem/term.h"
 #include "trajectory/basis.h"
@@ -74,11 +75,13 @@ struct ambulo_problem {
   double *quadrature; /* [nodes], trapezoidal weights, s */
   int *active;        /* [nodes][feet] contact index or -1 */
   int *before;        /* [nodes][feet] just before the node; NULL but for grids on events */
-  double *ground;     /* [blocks][entries][8], problem/ground.c; NULL without ground reaction */
+  double
+      *ground; /* [blocks][entries][8], problem/ground_reaction.c; NULL without ground reaction */
   ambulo__devices *devices; /* NULL without */
   ambulo__holds *holds;     /* NULL without */
   size_t taken_at;          /* of the kernels' scratch (ambulo__plan_take_wrench); 0: no contacts */
-  double *told; /* [blocks][devices and holds][8], contact/load_profile.h; NULL without */
+  double *time_factors; /* [blocks][devices and holds][8]: of profiles, clutches and holds at the
+                           nodes (contact/load_profile.h); NULL without */
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;
@@ -116,8 +119,8 @@ struct ambulo_workspace {
   double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
                              without ground reaction */
   double *device_scratch; /* ambulo__room; NULL without devices and holds */
-  double *device_kept;    /* [nodes][ambulo__devices_entries] */
-  double *hold_kept;      /* [nodes][ambulo__holds_entries] */
+  double *device_states;  /* [nodes][ambulo__devices_entries] */
+  double *hold_states;    /* [nodes][ambulo__holds_entries] */
   double *bare_force;     /* [nodes][3][d]: of the bodies' own root force by qdd, where `wrench` has
                              what is held too; NULL without holds */
   ambulo_fault fault;     /* of the last E_NUMERIC */
@@ -164,7 +167,7 @@ void ambulo__adjoint_block(ambulo_workspace *workspace, int block);
 
 /* ---------------------------------------------------------- ground reaction */
 
-/* What the kernels are told about the ground at `count` times, [blocks][entries][8]; freed with
+/* What the kernels need to know of the ground at `count` times, [blocks][entries][8]; freed with
  * ambulo__free_aligned. *ground is NULL without ground reaction. E_MEMORY. */
 ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_allocator *allocator,
                                   const double *times, int count, double **ground);
@@ -186,20 +189,22 @@ static inline const double *ambulo__ground_block(const ambulo_problem *problem,
 }
 
 /* The outputs of a block of nodes from its q, qd and qdd, the first channels: inverse dynamics and
- * what the devices leave of it. `ground` and `told` are the problem's or of other times; the
+ * what the devices leave of it. `ground` and `factors` are the problem's or of other times; the
  * scratch is the kernels', the room of ambulo__room (may be NULL without devices and holds). */
 void ambulo__mechanics_block(const ambulo_problem *problem, const double *ground,
-                             const double *told, int block, double *channel, double *scratch,
+                             const double *factors, int block, double *channel, double *scratch,
                              double *room);
-size_t ambulo__room(const ambulo_problem *problem);
-/* Entries of `told` at a time. */
-static inline int ambulo__told_entries(const ambulo_problem *problem) {
+size_t ambulo__device_scratch_size(const ambulo_problem *problem);
+/* Factors by time, of devices and holds, at one time. */
+static inline int ambulo__time_factor_entries(const ambulo_problem *problem) {
   return problem->channels.devices + problem->definition.hold_count;
 }
-/* A block of `told`; NULL without. */
-static inline const double *ambulo__told_block(const ambulo_problem *problem, const double *told,
-                                               int block) {
-  return told ? told + (size_t)block * (size_t)ambulo__told_entries(problem) * AMBULO__LANES : NULL;
+/* A block of them; NULL without. */
+static inline const double *ambulo__time_factor_block(const ambulo_problem *problem,
+                                                      const double *factors, int block) {
+  return factors ? factors +
+                       (size_t)block * (size_t)ambulo__time_factor_entries(problem) * AMBULO__LANES
+                 : NULL;
 }
 
 /* ------------------------------------------------------------- local rows */
@@ -212,9 +217,6 @@ void ambulo__wrench_gather(ambulo_workspace *workspace, int block);
  * (mechanics/plan.h) at a node by q, qd and qdd. */
 void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
                              double *gradient);
-/* The same times a factor, added. */
-void ambulo__output_add(const ambulo_workspace *workspace, int node, int output, double times,
-                        double *gradient);
 /* After ambulo__evaluate_jacobian: slopes[3][d] of a row by q, qd and qdd of its node (local rows
  * only). */
 void ambulo__row_slopes(const ambulo_workspace *workspace, int row, double *slopes);
@@ -245,5 +247,39 @@ static inline int ambulo__node_width(const ambulo_problem *p, int node) {
 static inline int ambulo__row_is_local(const ambulo_problem *p, int row) {
   return p->table.rows[row].node >= 0;
 }
+
+/* ------------------------------------------------------------------- construction */
+
+/* variants.c: unknowns x [variables] of a motion that rests in the model's start pose. */
+void ambulo__start_pose(const ambulo_problem *problem, double *x);
+/* The same problem on another grid: `intervals` time intervals and `spline_intervals`
+ * intervals of the trajectory. Breakpoints of its own are kept only while their number
+ * stays, and times of nodes of its own likewise: other numbers are distributed over the phases.
+ * Tracked references are interpolated linearly. The model stays shared, so the
+ * new problem must not outlive `problem`. */
+ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int intervals,
+                                        int spline_intervals, const ambulo_allocator *allocator,
+                                        ambulo_problem **out);
+/* `base` extended by what `like` has beyond its root, which takes `base` over, also on
+ * failure; *extended is `base` itself where that is nothing. Errors: as ambulo_problem_extend. */
+ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *base,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo_problem **extended);
+/* ambulo_problem_create of a definition that is known to be good, or that moves beyond the ranges
+ * of members a little; its obstacles have names that outlive it. */
+ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+
+/* ---------------------------------------------------------- memory (workspace.c) */
+
+/* How much a problem takes, before it is taken; bytes, as doubles: absurd sizes do not overflow
+ * them. Of a workspace of a problem whose grid and plan are there. */
+double ambulo__workspace_bytes(const ambulo_problem *problem, int with_jacobians);
+/* Of the rows that this definition can bring at the most, with the tables made of them. */
+double ambulo__row_bytes(const ambulo_problem *problem, double rows);
+double ambulo__rows_at_most(const ambulo_problem *problem);
+/* E_LIMIT with the figures when a problem whose grid and plan are there would not fit. */
+ambulo_status ambulo__check_memory(const ambulo_problem *problem, ambulo_diagnostics *diagnostics);
 
 #endif

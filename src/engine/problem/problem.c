@@ -4,11 +4,10 @@
  * lane map -> compiled mechanics -> schedule at the nodes -> rows of every family -> counts
  * and hash. After that nothing changes.
  *
- * Reading order: nlp.h, problem.h, members.h, definition.h, problem.c, variants.c, workspace.c,
- * term.h, evaluate.c, motion.c, row_runs.h, gradient.c, local_rows.c; derivative_check.c compares
- * them.
+ * Reading order: nlp.h, members.h, definition.h, problem.c, variants.c, workspace.c, term.h,
+ * evaluate.c, motion.c, row_runs.h, gradient.c, row_gradients.c; derivative_check.c compares them.
  */
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "model/capsule_points.h"
 #include "base/instant.h"
 #include "contact/load_profile.h"
@@ -276,7 +275,8 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   if (!status) status = symmetry;
   if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
   if (!status)
-    status = ambulo__devices_tell(&p->definition, &p->allocator, p->times, p->nodes, &p->told);
+    status =
+        ambulo__devices_tell(&p->definition, &p->allocator, p->times, p->nodes, &p->time_factors);
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
@@ -349,7 +349,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->active);
   ambulo__free(&a, p->before);
   ambulo__free_aligned(&a, p->ground);
-  ambulo__free_aligned(&a, p->told);
+  ambulo__free_aligned(&a, p->time_factors);
   ambulo__devices_free(p->devices);
   ambulo__holds_free(p->holds);
   ambulo__definition_free(&a, &p->definition);

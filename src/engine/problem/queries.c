@@ -4,7 +4,7 @@
 #include "contact/loading.h"
 #include "contact/phases.h"
 #include "problem/definition.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 #include "base/instant.h"
 #include "contact/phases.h"
 #include "problem/definition.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <string.h>

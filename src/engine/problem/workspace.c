@@ -3,7 +3,6 @@
 
 #include "base/free_memory.h"
 #include "problem/nlp.h"
-#include "problem/problem.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,13 +30,13 @@ static ambulo_status allocate_jacobians(ambulo_workspace *w, const ambulo_proble
   }
   if (p->devices) {
     size_t kept = (size_t)p->nodes * ambulo__devices_entries(p->devices);
-    w->device_kept = ambulo__alloc_aligned(a, kept, word);
-    if (!w->device_kept) return AMBULO_E_MEMORY;
+    w->device_states = ambulo__alloc_aligned(a, kept, word);
+    if (!w->device_states) return AMBULO_E_MEMORY;
   }
   if (p->holds) {
     size_t nodes = (size_t)p->nodes;
-    w->hold_kept = ambulo__alloc_aligned(a, nodes * ambulo__holds_entries(p->holds), word);
-    if (!w->hold_kept) return AMBULO_E_MEMORY;
+    w->hold_states = ambulo__alloc_aligned(a, nodes * ambulo__holds_entries(p->holds), word);
+    if (!w->hold_states) return AMBULO_E_MEMORY;
     if (grounded)
       w->bare_force = ambulo__alloc_aligned(a, 3 * nodes * (size_t)p->coordinates, word);
     if (grounded && !w->bare_force) return AMBULO_E_MEMORY;
@@ -65,7 +64,8 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->other_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
-  if (p->devices || p->holds) w->device_scratch = ambulo__alloc_aligned(a, ambulo__room(p), word);
+  if (p->devices || p->holds)
+    w->device_scratch = ambulo__alloc_aligned(a, ambulo__device_scratch_size(p), word);
   if ((p->devices || p->holds) && !w->device_scratch) return AMBULO_E_MEMORY;
   int complete = w->x && w->channel && w->weight && w->term_slope && w->gradient_lanes &&
                  w->scratch && w->row_value && w->term_value && w->user_gradient && w->user_slot &&
@@ -133,8 +133,8 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->wrench[1],
                        w->wrench[2],
                        w->device_scratch,
-                       w->device_kept,
-                       w->hold_kept,
+                       w->device_states,
+                       w->hold_states,
                        w->bare_force};
   for (size_t i = 0; i < sizeof aligned / sizeof *aligned; i++)
     ambulo__free_aligned(&a, aligned[i]);
@@ -152,6 +152,8 @@ void ambulo_workspace_free(ambulo_workspace *w) {
  *     scratch     of inverse dynamics in one block of nodes, once
  *     a row       its table (names, time, terms), its place in the runs, its value
  */
+
+enum { MOST_ROWS = 50000000 };
 
 static const double terms_of_a_row = 3.5; /* of walks; 1 of limits, 6 of centres of pressure */
 static const double growth = 1.5;         /* arrays that double are filled to 3/4 on average */
@@ -205,12 +207,12 @@ ambulo_status ambulo__check_memory(const ambulo_problem *p, ambulo_diagnostics *
   const double gigabyte = 1073741824.0;
   double rows = ambulo__rows_at_most(p), free_bytes = 1048576.0 * ambulo__free_megabytes();
   double bytes = ambulo__row_bytes(p, rows) + ambulo__workspace_bytes(p, 0);
-  if (rows <= AMBULO__MOST_ROWS && (free_bytes == 0.0 || bytes <= free_bytes)) return AMBULO_OK;
+  if (rows <= MOST_ROWS && (free_bytes == 0.0 || bytes <= free_bytes)) return AMBULO_OK;
   return ambulo__error(diagnostics, AMBULO_E_LIMIT, ambulo__nowhere,
                        "lower time.intervals or trajectory.intervals",
                        "the problem is too large: %d time nodes and %d unknowns of %d coordinates, "
                        "up to %.3g million rows, %.3g GB before any solve (%.3g GB are free); "
                        "expected at most %d million rows, and memory for them",
                        p->nodes, p->variables, p->coordinates, 1e-6 * rows, bytes / gigabyte,
-                       free_bytes / gigabyte, AMBULO__MOST_ROWS / 1000000);
+                       free_bytes / gigabyte, MOST_ROWS / 1000000);
 }

@@ -4,7 +4,7 @@
  * rows and terms may count nodes; they are not asked off the nodes. Events are moved with their
  * contacts, except those at 0 and T, which are nodes on every grid.
  */
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "base/instant.h"
 #include "solver/dense.h"
 
@@ -88,7 +88,7 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
   size_t stride = (size_t)ambulo__channel_count(&p->channels) * AMBULO__LANES;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof *scratch);
-  double *room = ambulo__alloc_aligned(a, ambulo__room(p), sizeof *room);
+  double *room = ambulo__alloc_aligned(a, ambulo__device_scratch_size(p), sizeof *room);
   dense->channel = ambulo__alloc_aligned(a, stride * (size_t)p->blocks, sizeof *dense->channel);
   dense->row_value = ambulo__alloc_aligned(a, (size_t)p->rows, sizeof *dense->row_value);
   ambulo_status status = AMBULO_E_MEMORY;
@@ -96,7 +96,7 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
     double *c = dense->channel;
     ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
     for (int b = 0; b < p->blocks; b++, c += stride)
-      ambulo__mechanics_block(p, p->ground, p->told, b, c, scratch, room);
+      ambulo__mechanics_block(p, p->ground, p->time_factors, b, c, scratch, room);
     ambulo__row_runs_values(&p->row_runs, dense->channel, dense->row_value);
     curved_values(p, dense);
     status = AMBULO_OK;

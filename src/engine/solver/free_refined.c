@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "base/diagnostics.h"
 #include "solver/result.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "solver/options.h"
 
 #include <math.h>

@@ -58,7 +58,7 @@ static void add_device(const ambulo__stationary *s, int node, int device, double
   ambulo__device_told told = ambulo__device_told_at(&p->definition, device, p->times[node]);
   ambulo__device_state state =
       ambulo__device_at(p->devices, device, q, qd,
-                        p->told + ambulo__lane_index(node, ambulo__told_entries(p), 0), scratch);
+                        p->time_factors + ambulo__lane_index(node, ambulo__time_factor_entries(p), 0), scratch);
   ambulo__effort effort = ambulo__effort_of(of, state.along, state.rate, told.factor);
   double pull = ambulo__device_pull(p->devices, device, q, y, scratch);
   double own = ambulo__stationary_adjoint(s, node, ambulo__channel_effort(&p->channels, device));

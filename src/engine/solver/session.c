@@ -11,7 +11,7 @@
 #include "solver/explain.h"
 #include "solver/verdict.h"
 #include "method/pipeline.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "solver/solve_memory.h"
 #include "solver/options.h"
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_SOLVER_SOLVE_MEMORY_H
 #define AMBULO_SOLVER_SOLVE_MEMORY_H
 
-#include "problem/problem.h"
+#include "problem/nlp.h"
 
 /* E_LIMIT with the figures when a solve with these options would not fit. */
 ambulo_status ambulo__solve_check_memory(const ambulo_problem *problem,

@@ -18,7 +18,7 @@
 #include "method/pipeline.h"
 #include "method/refine.h"
 #include "method/smooth.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -18,7 +18,7 @@
 #include "contact/gait.h"
 #include "solver/result.h"
 #include "model/neutral_pose.h"
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "solver/session.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  * It is the text as it was when the problem was read, with the same overrides and one more for each
  * parameter: what a user would have by `--set`; then extended as the problem was.
  */
-#include "problem/problem.h"
+#include "problem/nlp.h"
 #include "ambulo/tools/load.h"
 #include "base/sized.h"
 #include "definitions/problem_free.h"

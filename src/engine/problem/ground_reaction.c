@@ -1,14 +1,13 @@
-/* problem/ground.c - what the kernels are told about the ground at given times.
+/* problem/ground_reaction.c - what the kernels need to know of the ground at given times.
  *
  * Per block of 8 times [3 + 4 K][8]: a point o near them, and for each of K slots its
  * weight and centre (contact/contact_load.h, mechanics/kernel_contacts.h). o is the mean of the
  * centres that are loaded.
  */
-#include "problem/nlp.h"
 #include "base/vector.h"
-
 #include "contact/contact_load.h"
 #include "contact/effector.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 
@@ -79,7 +78,7 @@ static void add_slot(const ambulo_problem *p, const ambulo__contact_load *load, 
 
 /* (W.10) origin + n x M / (n.f), M.f / (n.f). A contact without normal force may still have a
  * moment, by the allowance of its rows (contact/sharing.c): no centre says which, so that the
- * moment about the world's origin, M + origin x f, is told besides */
+ * moment about the world's origin, M + origin x f, is given besides */
 static void place_pressure(const ambulo__contact_frame *frame, const double moment[3],
                            ambulo__pressure *at) {
   double normal = ambulo__dot(at->force, frame->up), shift[3] = {0.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
-/* problem/held.c - see held.h. */
-#include "problem/held.h"
+/* problem/hold_wrench.c - see held.h. */
+#include "problem/hold_wrench.h"
 
 #include <string.h>
 
@@ -14,15 +14,15 @@ static const double *kept_in(const ambulo_problem *p, const double *room, int la
          (size_t)lane * ambulo__holds_entries(p->holds);
 }
 
-size_t ambulo__room(const ambulo_problem *p) {
+size_t ambulo__device_scratch_size(const ambulo_problem *p) {
   return ambulo__devices_scratch(p->devices) + AMBULO__LANES * ambulo__holds_entries(p->holds);
 }
 
-void ambulo__held_begin(const ambulo_problem *p, const double *told, const double *channel,
-                        double *scratch, double *room) {
+void ambulo__hold_wrench_begin(const ambulo_problem *p, const double *factors,
+                               const double *channel, double *scratch, double *room) {
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   if (!p->holds) return;
-  const double *window = told + (size_t)p->channels.devices * AMBULO__LANES;
+  const double *window = factors + (size_t)p->channels.devices * AMBULO__LANES;
   double *wrench = p->taken_at ? scratch + p->taken_at : NULL;
   if (wrench) memset(wrench, 0, (size_t)6 * AMBULO__LANES * sizeof *wrench);
   for (int lane = 0; lane < AMBULO__LANES; lane++) {
@@ -33,7 +33,7 @@ void ambulo__held_begin(const ambulo_problem *p, const double *told, const doubl
   }
 }
 
-void ambulo__held_end(const ambulo_problem *p, double *channel, const double *room) {
+void ambulo__hold_wrench_end(const ambulo_problem *p, double *channel, const double *room) {
   if (!p->holds) return;
   double *tau = channel + (size_t)ambulo__channel_tau(&p->channels, 0) * AMBULO__LANES;
   double *wrench = channel + (size_t)ambulo__channel_moment(&p->channels, 0) * AMBULO__LANES;
@@ -44,8 +44,8 @@ void ambulo__held_end(const ambulo_problem *p, double *channel, const double *ro
   }
 }
 
-void ambulo__held_reverse(const ambulo_problem *p, double *weight, const double *scratch,
-                          const double *room) {
+void ambulo__hold_wrench_reverse(const ambulo_problem *p, double *weight, const double *scratch,
+                                 const double *room) {
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   if (!p->holds) return;
   const double *root =
@@ -67,7 +67,7 @@ void ambulo__held_reverse(const ambulo_problem *p, double *weight, const double 
 /* --------------------------------------------------------------- Jacobians */
 
 static double *node_kept(const ambulo_workspace *workspace, int node) {
-  return workspace->hold_kept + (size_t)node * ambulo__holds_entries(workspace->problem->holds);
+  return workspace->hold_states + (size_t)node * ambulo__holds_entries(workspace->problem->holds);
 }
 
 static void gather_node(ambulo_workspace *workspace, int node) {
@@ -87,7 +87,7 @@ static void gather_node(ambulo_workspace *workspace, int node) {
   }
 }
 
-void ambulo__held_gather(ambulo_workspace *workspace, int block) {
+void ambulo__hold_wrench_gather(ambulo_workspace *workspace, int block) {
   const ambulo_problem *p = workspace->problem;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   if (!p->holds) return;
@@ -96,14 +96,15 @@ void ambulo__held_gather(ambulo_workspace *workspace, int block) {
     if (node >= p->nodes) return;
     const double *q = workspace->channel + ambulo__lane_index(node, workspace->channel_count, 0);
     const double *window =
-        p->told + ambulo__lane_index(node, ambulo__told_entries(p), p->channels.devices);
+        p->time_factors +
+        ambulo__lane_index(node, ambulo__time_factor_entries(p), p->channels.devices);
     ambulo__holds_keep(p->holds, q, q + d8, q + 2 * d8, window, node_kept(workspace, node));
     if (ambulo__plan_contacts(p->plan)) gather_node(workspace, node);
   }
 }
 
-void ambulo__held_add_output(const ambulo_workspace *workspace, int node, int output,
-                             double *gradient) {
+void ambulo__hold_wrench_add_output(const ambulo_workspace *workspace, int node, int output,
+                                    double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const int d = p->coordinates, row = output - d;
   int torque = row < 0, wrench = row >= 0 && row < 6 && !ambulo__plan_contacts(p->plan);

@@ -1,6 +1,6 @@
 /* What hands hold in a whole problem: gradients with contacts that share the load, without, and in
  * flight; the same mass fixed to a link; momentum of body and load. */
-#include "problem/held.h"
+#include "problem/hold_wrench.h"
 
 #include "ambulo/tools/tools.h"
 #include "support/engine_fixture.h"
