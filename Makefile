@@ -60,7 +60,8 @@ KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
   -mtune=skylake-avx512 $(if $(CLANG),,-fschedule-insns -fsched-pressure)
 KERNEL_avx2 := -mavx2 -mfma
 
-ALL_CPPFLAGS = -Iinclude -Isrc -Isrc/engine -Isrc/files -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
+# with ENGINE=1, as `make engine` has it, src/engine is all there is
+ALL_CPPFLAGS = -Iinclude $(if $(ENGINE),,-Isrc -Isrc/files )-Isrc/engine -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) $(MODE) $(FLOATING) -fPIC -fvisibility=hidden
 
 # Libraries by pkg-config where it knows them, by their usual names otherwise.
@@ -74,17 +75,18 @@ ifeq ($(shell uname -s),Darwin)
   export PKG_CONFIG_PATH := $(PKG_CONFIG_PATH):$(shell brew --prefix openblas 2>/dev/null)/lib/pkgconfig
   # what POSIX alone does not name: MAP_ANONYMOUS, _SC_NPROCESSORS_ONLN
   ALL_CPPFLAGS += -D_DARWIN_C_SOURCE
-  shared_name = libambulo$(1).dylib
+  shared_name = libambulo$(if $(ENGINE),_engine)$(1).dylib
   SHARED := -dynamiclib -install_name @rpath/$(call shared_name,.$(SOVERSION))
 else
-  shared_name = libambulo.so$(1)
+  shared_name = libambulo$(if $(ENGINE),_engine).so$(1)
   # the engine's functions are of version AMBULO_0, those of the tools of AMBULO_TOOLS_0
   VERSIONS = $(OUT)/obj/libambulo.map
-  SHARED = -shared -Wl,-soname,libambulo.so.$(SOVERSION) -Wl,--version-script=$(VERSIONS) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
+  SHARED = -shared -Wl,-soname,$(call shared_name,.$(SOVERSION)) -Wl,--version-script=$(VERSIONS) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
 endif
-DEPENDENCIES := nlopt yaml-0.1
+DEPENDENCIES := nlopt $(if $(ENGINE),,yaml-0.1)
 DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflags))
-LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(LAPACK_LIBS)) -lm -lpthread
+LIBS := $(call libs_of,nlopt,-lnlopt) $(if $(ENGINE),,$(call libs_of,yaml-0.1,-lyaml)) $(strip $(LAPACK_LIBS)) -lm -lpthread
+ifndef ENGINE
 # expat is optional: without it `ambulo import` says so
 EXPAT := $(if $(call links,-include expat.h -lexpat),$(call libs_of,expat,-lexpat))
 DEPENDENCY_CFLAGS += $(if $(EXPAT),-DAMBULO_HAS_EXPAT $(call probe,expat,--cflags))
@@ -93,20 +95,22 @@ LIBS += $(EXPAT)
 ZLIB := $(if $(call links,-include zlib.h -lz),$(call libs_of,zlib,-lz))
 DEPENDENCY_CFLAGS += $(if $(ZLIB),-DAMBULO_HAS_ZLIB $(call probe,zlib,--cflags))
 LIBS += $(ZLIB)
+endif
 CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
 SHARED_LIBRARY = $(OUT)/$(call shared_name,)
+ARCHIVE := $(OUT)/libambulo$(if $(ENGINE),_engine).a
 
 # ----------------------------------------------------------------- sources
 
-SOURCES := $(sort $(wildcard src/*/*.c src/*/*/*.c))
+SOURCES := $(sort $(if $(ENGINE),$(wildcard src/engine/*/*.c),$(wildcard src/*/*.c src/*/*/*.c)))
 ifeq ($(X86),)
   SOURCES := $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
-  $(OUT)/obj/viewer.o
+  $(if $(ENGINE),,$(OUT)/obj/viewer.o)
 CLI_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(CLI_SOURCES))
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
@@ -117,7 +121,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all help setup demo check check-long run-long way sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
+.PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
@@ -140,6 +144,7 @@ help:
 	@echo 'make check-python tests of the Python package with all that is optional, in an environment of its own'
 	@echo 'make wheel        the Python package as build/wheel/ambulo-*.whl'
 	@echo 'make way          the files that one solve enters, in order (PROBLEM=models/walk.yaml)'
+	@echo 'make engine       src/engine alone, with NLopt and LAPACK: build/engine/libambulo_engine.a, and its tests'
 	@echo 'make sanitize-engine  tests of src/engine with sanitizers'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
@@ -160,7 +165,7 @@ help:
 
 # ------------------------------------------------------------------- build
 
-all: $(OUT)/libambulo.a $(SHARED_LIBRARY) $(if $(CLI_SOURCES),$(OUT)/ambulo)
+all: $(ARCHIVE) $(SHARED_LIBRARY) $(if $(CLI_SOURCES),$(OUT)/ambulo)
 
 # rewritten only when what it says changes: objects are rebuilt with new flags, archives
 # with a new list of sources
@@ -188,7 +193,7 @@ $(OUT)/obj/src/engine/linear/band_kernels_%.o: src/engine/linear/band_kernels_%.
 
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
-	$(call compile,$(if $(filter tests/%,$<),$(TEST_MODE)) $(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
+	$(call compile,$(if $(filter tests/%,$<),$(TEST_MODE)) $(if $(filter tests/% bench/%,$<),-Itests$(if $(ENGINE), -Isrc -Isrc/files))$(if $(filter bench/peers/%,$<), -Ibench))
 
 # the page of `ambulo report`, as an array of bytes (src/show/page.h); the zero behind it ends a text
 $(OUT)/obj/viewer.c: src/show/viewer.html Makefile
@@ -199,7 +204,7 @@ $(OUT)/obj/viewer.c: src/show/viewer.html Makefile
 $(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags
 	$(call compile,)
 
-$(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
+$(ARCHIVE): $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
 	$(call quiet,AR $@)$(AR) rcs $@ $(LIB_OBJECTS)
 
@@ -211,8 +216,8 @@ $(SHARED_LIBRARY): $(LIB_OBJECTS) $(OUT)/obj/sources $(VERSIONS)
 
 # one variant reports which functions it enters
 TRACER := $(if $(filter way,$(VARIANT)),$(OUT)/obj/tests/support/way.o)
-$(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a $(TRACER)
-	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(TRACER) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
+$(OUT)/ambulo: $(CLI_OBJECTS) $(ARCHIVE) $(TRACER)
+	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(TRACER) $(ARCHIVE) $(LDFLAGS) $(LIBS) -o $@
 
 # Tests of a release are compiled at -O1 and linked without what debuggers read: the library is what is
 # fast, and four hundred programs are compiled and linked in half of the time.
@@ -222,17 +227,17 @@ TEST_LINK := $(if $(filter release,$(VARIANT)),-Wl$(comma)-S)
 
 # the parts of the program are linked into its tests, its main() is not
 CLI_PARTS := $(filter-out %/main.o,$(CLI_OBJECTS))
-$(OUT)/tests/cli/test_%: $(OUT)/obj/tests/cli/test_%.o $(CLI_PARTS) $(OUT)/libambulo.a
+$(OUT)/tests/cli/test_%: $(OUT)/obj/tests/cli/test_%.o $(CLI_PARTS) $(ARCHIVE)
 	@mkdir -p $(@D)
-	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(CLI_PARTS) $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(CLI_PARTS) $(ARCHIVE) $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
-$(OUT)/tests/%: $(OUT)/obj/tests/%.o $(OUT)/libambulo.a
+$(OUT)/tests/%: $(OUT)/obj/tests/%.o $(ARCHIVE)
 	@mkdir -p $(@D)
-	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(ARCHIVE) $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
-$(OUT)/bench/%: $(OUT)/obj/bench/%.o $(OUT)/libambulo.a
+$(OUT)/bench/%: $(OUT)/obj/bench/%.o $(ARCHIVE)
 	@mkdir -p $(@D)
-	$(call quiet,LD $@)$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $< $(ARCHIVE) $(LDFLAGS) $(LIBS) -o $@
 
 .SECONDARY:
 -include $(wildcard $(OUT)/obj/*/*.d $(OUT)/obj/*/*/*.d $(OUT)/obj/*/*/*/*.d)
@@ -344,6 +349,17 @@ way: build/.ready-build
 # the engine's rooms alone: what .ci/run can afford
 ENGINE_ROOMS := $(notdir $(wildcard src/engine/*))
 ENGINE_TESTS := $(filter $(addsuffix /%,$(addprefix $(OUT)/tests/,$(ENGINE_ROOMS))),$(TESTS))
+# An archive of src/engine with NLopt, LAPACK and libc alone, and whatever of the rooms' tests needs no
+# more: without files, most problems are out of reach. The library that is linked of it shows that
+# nothing else is needed.
+ENGINE_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(wildcard $(patsubst %,tests/%/test_*.c,$(ENGINE_ROOMS) api)))
+engine: build/.ready-test
+	$(submake) ENGINE=1 OUT=build/engine test-engine
+test-engine: all $(ENGINE_OBJECTS)
+	@.setup/engine_tests.sh $(ARCHIVE) $(ENGINE_OBJECTS) > $(OUT)/tests.list
+	+@programs=$$(sed 's#/obj/#/#; s#\.o$$##' $(OUT)/tests.list); $(MAKE) --no-print-directory -k $$programs; \
+	  JOBS=$(JOBS) OUT=$(OUT) tests/support/all.sh $$programs
+
 sanitize-engine: build/.ready-test
 	$(submake) VARIANT=san run-engine-tests
 run-engine-tests: $(ENGINE_TESTS)
@@ -378,10 +394,10 @@ lint-order: build/.ready-build
 lint-size:
 	@.setup/lint_size.sh
 lint-symbols: build/.ready-build
-	$(submake) $(SHARED_LIBRARY) $(OUT)/libambulo.a
-	@.setup/lint_symbols.sh $(SHARED_LIBRARY) $(OUT)/libambulo.a
+	$(submake) $(SHARED_LIBRARY) $(ARCHIVE)
+	@.setup/lint_symbols.sh $(SHARED_LIBRARY) $(ARCHIVE)
 lint-callers: build/.ready-build
-	$(submake) $(OUT)/libambulo.a $(OUT)/ambulo
+	$(submake) $(ARCHIVE) $(OUT)/ambulo
 	@.setup/lint_callers.sh $(OUT)/obj/src
 lint-mirror:
 	@.setup/lint_mirror.sh
@@ -431,7 +447,7 @@ export PKG_CONFIG_FILE
 define PLACES
 { place() { printf '%s\t%s\t%s\n' "$$@"; }; share=$(PREFIX)/share; \
   place 755 $(OUT)/ambulo $(PREFIX)/bin/ambulo; \
-  place 644 $(OUT)/libambulo.a $(LIBDIR)/libambulo.a; \
+  place 644 $(ARCHIVE) $(LIBDIR)/libambulo.a; \
   place 755 $(SHARED_LIBRARY) $(LIBDIR)/$(call shared_name,.$(VERSION)); \
   place link $(call shared_name,.$(VERSION)) $(LIBDIR)/$(call shared_name,.$(SOVERSION)); \
   place link $(call shared_name,.$(SOVERSION)) $(LIBDIR)/$(call shared_name,); \
