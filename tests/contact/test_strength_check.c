@@ -13,7 +13,7 @@ static const char text[] = "ambulo: 1\n"
                            "contacts:\n"
                            "  - {foot: right, mode: flat, from: 0, to: 0.6, place: [0, 0]}\n"
                            "  - {foot: left, mode: flat, from: 0, to: 0.6, place: [0, 0]}\n"
-                           "ground_reaction: {transfer: linear}\n"
+                           "ground_reaction: {kind: shared}\n"
                            "constraints: {ground_penetration: true, torque_limits: true}\n"
                            "objective: none\n";
 

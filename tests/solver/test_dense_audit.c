@@ -49,7 +49,7 @@ static void a_walk_is_optimal_at_the_nodes_only(void **state) {
   }
   assert_int_equal(dense->failing, failing);
   assert_int_equal(dense->line_count, failing);
-  assert_non_null(strstr(dense->lines[0], "slip: 0.01"));
+  assert_non_null(strstr(dense->lines[0], "slip: 0.02"));
   assert_non_null(strstr(dense->lines[0], "tolerance 0.001 m"));
   char setting[60];
   (void)snprintf(setting, sizeof setting, "--set time.intervals=%d", dense->intervals);

@@ -41,8 +41,8 @@
  * leading minors n_1 = xx, n_2 and n_3, D is n_1, n_2 / n_1, n_3 / n_2, all by one division: of
  * three that wait for each other most of the time would be lost. n_3 stands here times n_1. */
 AMBULO__INLINE wide6 factor6(wide6 a) {
-  wide second = a.xx * a.yy - a.xy * a.xy, across = a.xx * a.yz - a.xy * a.xz;
-  wide third = second * (a.xx * a.zz - a.xz * a.xz) - across * across;
+  wide second = a.xx * a.yy - rounded(a.xy * a.xy), across = a.xx * a.yz - rounded(a.xy * a.xz);
+  wide third = second * (a.xx * a.zz - rounded(a.xz * a.xz)) - across * across;
   wide both = a.xx * second, inverse = 1 / (both * third);
   wide6 f;
   f.xx = second * third * inverse;
@@ -59,7 +59,7 @@ AMBULO__INLINE wide3 solve6(wide6 f, wide3 v) {
   wide y = v.y - f.xy * v.x, z = ((v.z - f.yz * v.y) + f.xz * v.x) * f.zz;
   wide x = v.x * f.xx;
   y = y * f.yy;
-  return (wide3){(x - f.xy * y) + f.xz * z, y - f.yz * z, z};
+  return (wide3){(x - rounded(f.xy * y)) + f.xz * z, y - f.yz * z, z};
 }
 
 /* c - M v and c - M^T v */

@@ -99,13 +99,27 @@ AMBULO__INLINE wide3 scale3(wide s, wide3 a) {
   return (wide3){s * a.x, s * a.y, s * a.z};
 }
 
+/* Of a sum of two products a compiler fuses one with the addition, and which one it takes hangs on
+ * what else is in the file. rounded() takes the choice away: the product within is rounded by
+ * itself, the other one is fused. */
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_assoc_barrier)
+#define rounded(product) __builtin_assoc_barrier(product)
+#elif __has_builtin(__arithmetic_fence)
+#define rounded(product) __arithmetic_fence(product)
+#endif
+#endif
+#ifndef rounded
+#define rounded(product) (product)
+#endif
+
 /* a + s b */
 AMBULO__INLINE wide3 axpy3(wide3 a, wide s, wide3 b) {
   return (wide3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
 AMBULO__INLINE wide dot3(wide3 a, wide3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  return a.x * b.x + rounded(a.y * b.y) + a.z * b.z;
 }
 
 /* c + a . b */
@@ -119,7 +133,8 @@ AMBULO__INLINE wide subtract_dot3(wide c, wide3 a, wide3 b) {
 }
 
 AMBULO__INLINE wide3 cross3(wide3 a, wide3 b) {
-  return (wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return (wide3){a.y * b.z - rounded(a.z * b.y), a.z * b.x - rounded(a.x * b.z),
+                 a.x * b.y - rounded(a.y * b.x)};
 }
 
 /* c + a x b */
@@ -145,8 +160,9 @@ AMBULO__INLINE wide3 add_multiply33_transposed(wide3 c, wide33 m, wide3 v) {
 }
 
 AMBULO__INLINE wide3 multiply6(wide6 m, wide3 v) {
-  return (wide3){m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
-                 m.xz * v.x + m.yz * v.y + m.zz * v.z};
+  return (wide3){m.xx * v.x + rounded(m.xy * v.y) + m.xz * v.z,
+                 m.xy * v.x + rounded(m.yy * v.y) + m.yz * v.z,
+                 m.xz * v.x + rounded(m.yz * v.y) + m.zz * v.z};
 }
 
 AMBULO__INLINE wide_pair load_pair(const double *at) {
