@@ -7,7 +7,7 @@
  * through one point, after.p = 0; behind sliders, or along the one hinge, after.p commutes and
  * moves into `before`. What cannot be appended makes its parent a body without mass.
  */
-#include "exchange/bodies.h"
+#include "exchange/export.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,11 +33,12 @@ static const double same_point = 1e-14;
 /* sine of the least angle between axes of a joint */
 static const double least_angle = 1e-3;
 
-static ambulo__rigid link_constant(const ambulo_link *link) {
+ambulo__rigid ambulo__link_transform(const ambulo_link *link, double q) {
   static const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1};
-  ambulo__rigid theta = ambulo__rigid_turn(z, link->theta),
+  int slides = link->type == AMBULO_PRISMATIC;
+  const double p[3] = {link->a, 0.0, link->d + (slides ? q : 0.0)};
+  ambulo__rigid theta = ambulo__rigid_turn(z, link->theta + (slides ? 0.0 : q)),
                 alpha = ambulo__rigid_turn(x, link->alpha);
-  const double p[3] = {link->a, 0.0, link->d};
   ambulo__rigid shift = ambulo__rigid_shift(p), all = ambulo__rigid_times(&theta, &shift);
   return ambulo__rigid_times(&all, &alpha);
 }
@@ -169,7 +170,7 @@ static void append_link(builder *b, int index) {
   const ambulo_model *model = b->bodies->model;
   const ambulo_link *link = &model->links[index];
   static const double z[3] = {0, 0, 1};
-  ambulo__rigid constant = link_constant(link);
+  ambulo__rigid constant = ambulo__link_transform(link, 0.0);
   chain c = chain_at(b, link->parent);
   if (link->type != AMBULO_FIXED) {
     double axis[3];

@@ -6,12 +6,12 @@
  */
 #include "exchange/body_tree.h"
 
+#include "base/vector.h"
+#include "model/check.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "base/vector.h"
-#include "model/check.h"
 
 static const double rounding = 1e-15; /* kg m^2: of files that were written by programs */
 static const double LIGHTEST = 1e-9;  /* kg: a body of a model file */
@@ -24,10 +24,9 @@ void ambulo__tree_note(ambulo__tree *tree, const ambulo__xml_node *node, const c
   const char *text = ambulo__arena_vprint(tree->arena, format, arguments);
   va_end(arguments);
   ambulo__warning(tree->xml->diagnostics, ambulo__xml_place(node), NULL, "%s", text);
-  void *room = ambulo__arena_grow(tree->arena, tree->notes, tree->note_count, &tree->note_capacity,
-                                  sizeof *tree->notes);
-  if (!room) return;
-  tree->notes = room;
+  if (!ambulo__arena_grow(tree->arena, &tree->notes, tree->note_count, &tree->note_capacity,
+                          sizeof *tree->notes))
+    return;
   tree->notes[tree->note_count++] = text;
 }
 
@@ -92,10 +91,9 @@ int ambulo__tree_add(ambulo__tree *tree, const char *name, int parent, ambulo_jo
                       "the body has too many links; expected at most %d", (int)AMBULO__MAX_LINKS);
     return -1;
   }
-  void *room = ambulo__arena_grow(tree->arena, tree->links, tree->link_count, &tree->link_capacity,
-                                  sizeof *tree->links);
-  if (!room) return -1;
-  tree->links = room;
+  if (!ambulo__arena_grow(tree->arena, &tree->links, tree->link_count, &tree->link_capacity,
+                          sizeof *tree->links))
+    return -1;
   ambulo__tree_link link = {.parent = parent, .type = type, .origin = *origin, .node = node};
   if (axis) memcpy(link.axis, axis, sizeof link.axis);
   link.coordinate = ambulo_coordinate_default();
@@ -165,18 +163,18 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid) {
   for (int i = 0; i < 3; i++)
     if (!(fabs(solid->at.p[i]) <= FARTHEST) || !(fabs(solid->size[i]) <= FARTHEST)) return;
-  void *room = ambulo__arena_grow(tree->arena, tree->solids, tree->solid_count,
-                                  &tree->solid_capacity, sizeof *tree->solids);
-  if (!room || solid->link < 0 || tree->solid_count >= MOST_SOLIDS) return;
-  tree->solids = room;
+  if (solid->link < 0 || tree->solid_count >= MOST_SOLIDS ||
+      !ambulo__arena_grow(tree->arena, &tree->solids, tree->solid_count, &tree->solid_capacity,
+                          sizeof *tree->solids))
+    return;
   tree->solids[tree->solid_count++] = *solid;
 }
 
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]) {
-  void *room = ambulo__arena_grow(tree->arena, tree->points, tree->point_count,
-                                  &tree->point_capacity, sizeof *tree->points);
-  if (!room || tree->point_count >= AMBULO__MAX_POINTS) return -1;
-  tree->points = room;
+  if (tree->point_count >= AMBULO__MAX_POINTS ||
+      !ambulo__arena_grow(tree->arena, &tree->points, tree->point_count, &tree->point_capacity,
+                          sizeof *tree->points))
+    return -1;
   ambulo__tree_point point = {.name = plain(tree, name, AMBULO__MAX_NAME), .link = link};
   memcpy(point.position, at, sizeof point.position);
   tree->points[tree->point_count] = point;
@@ -226,6 +224,38 @@ void ambulo__tree_check(ambulo__tree *tree) {
   }
 }
 
+void ambulo__tree_range(ambulo__tree *tree, int link, const double range[2], double scale,
+                        const ambulo__xml_node *node) {
+  ambulo_coordinate *c = &tree->links[link].coordinate;
+  if (range[0] > range[1])
+    ambulo__xml_error(tree->xml, node, AMBULO_E_MODEL, NULL,
+                      "the range of '%.60s' contradicts itself (got %s to %s); expected lower <= "
+                      "upper",
+                      c->name, ambulo__number_text(range[0]).text,
+                      ambulo__number_text(range[1]).text);
+  for (int i = 0; i < 2; i++) c->range[i] = scale * range[i];
+}
+
+int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
+                      const ambulo__xml_node *node) {
+  if (ambulo__normalize(axis) > 1e-12) return 1;
+  ambulo__xml_error(tree->xml, node, AMBULO_E_MODEL, NULL,
+                    "the axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
+                    joint);
+  return 0;
+}
+
+void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
+  for (int i = 0; i < 3; i++) {
+    axes[2][i] = -tree->gravity[i];
+    axes[0][i] = tree->forward[i];
+  }
+  (void)ambulo__normalize(axes[2]);
+  ambulo__cross(axes[2], axes[0], axes[1]);
+  (void)ambulo__normalize(axes[1]);
+  ambulo__cross(axes[1], axes[2], axes[0]);
+}
+
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link) {
   ambulo__rigid place = ambulo__rigid_identity();
   for (int i = link; i >= 0; i = tree->links[i].parent)
@@ -242,4 +272,95 @@ double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, doubl
     if (ambulo__parse_double(text + length + 1, strlen(text + length + 1), &value)) return value;
   }
   return fallback;
+}
+
+/* joints of several coordinates as links, one coordinate each (body_tree.h).
+ *
+ * Placements in between are put together. What comes after the last joint is taken into it where
+ * that can be: with C = Trans(c) R_C,
+ *
+ *     P Trans(a q) C = (P C) Trans(R_C' a q)               always
+ *     P Rot(a, q) C  = (P C) Rot(R_C' a, q)                for c = 0
+ *
+ * else the body hangs behind it on a fixed link, which costs nothing.
+ */
+
+static const double nothing = 1e-15; /* m, and as a sine: rounding of a product */
+
+ambulo__chain ambulo__chain_begin(ambulo__tree *tree, int parent, const ambulo__xml_node *node) {
+  return (ambulo__chain){
+      .tree = tree, .node = node, .parent = parent, .pending = ambulo__rigid_identity()};
+}
+
+void ambulo__chain_place(ambulo__chain *chain, const ambulo__rigid *placement) {
+  chain->pending = ambulo__rigid_times(&chain->pending, placement);
+}
+
+int ambulo__chain_joint(ambulo__chain *chain, ambulo_joint_type type, const double axis[3],
+                        const char *coordinate) {
+  double unit[3];
+  memcpy(unit, axis, sizeof unit);
+  (void)ambulo__normalize(unit);
+  int link = ambulo__tree_add(chain->tree, coordinate, chain->parent, type, &chain->pending, unit,
+                              chain->node);
+  chain->pending = ambulo__rigid_identity();
+  if (link < 0) return -1;
+  chain->parent = link;
+  chain->own++;
+  return link;
+}
+
+static int taken_in(ambulo__tree_link *last, const ambulo__rigid *c) {
+  int moves = fabs(c->p[0]) > nothing || fabs(c->p[1]) > nothing || fabs(c->p[2]) > nothing;
+  if (last->type == AMBULO_FIXED || (last->type == AMBULO_REVOLUTE && moves)) return 0;
+  double axis[3];
+  ambulo__rigid_back(c, last->axis, axis);
+  last->origin = ambulo__rigid_times(&last->origin, c);
+  memcpy(last->axis, axis, sizeof axis);
+  return 1;
+}
+
+int ambulo__chain_end(ambulo__chain *chain, const char *name) {
+  ambulo__tree *tree = chain->tree;
+  if (chain->own == 0 || !taken_in(&tree->links[chain->parent], &chain->pending))
+    return ambulo__tree_add(tree, name, chain->parent, AMBULO_FIXED, &chain->pending, NULL,
+                            chain->node);
+  /* the last joint's link becomes the body's */
+  ambulo__tree_link *last = &tree->links[chain->parent];
+  const char *before = last->name;
+  last->name = "";
+  int named = ambulo__tree_add(tree, name, -1, AMBULO_FIXED, &chain->pending, NULL, chain->node);
+  last = &tree->links[chain->parent];
+  last->name = named < 0 ? before : tree->links[named].name;
+  if (named >= 0) tree->link_count--;
+  return chain->parent;
+}
+
+static void joint_named(ambulo__chain *chain, ambulo_joint_type type, const double axis[3],
+                        const char *name, const char *part, int actuated) {
+  const char *full = ambulo__arena_print(chain->tree->arena, "%.50s_%s", name, part);
+  int link = ambulo__chain_joint(chain, type, axis, full);
+  if (link >= 0) chain->tree->links[link].coordinate.actuated = actuated;
+}
+
+void ambulo__chain_free(ambulo__chain *chain, const char *prefix) {
+  static const char *const slides[] = {"tx", "ty", "tz"};
+  double axes[3][3];
+  ambulo__tree_axes(chain->tree, axes);
+  for (int i = 0; i < 3; i++) {
+    const double axis[3] = {i == 0, i == 1, i == 2};
+    joint_named(chain, AMBULO_PRISMATIC, axis, prefix, slides[i], 0);
+  }
+  joint_named(chain, AMBULO_REVOLUTE, axes[1], prefix, "tilt", 0);
+  joint_named(chain, AMBULO_REVOLUTE, axes[0], prefix, "list", 0);
+  joint_named(chain, AMBULO_REVOLUTE, axes[2], prefix, "rotation", 0);
+}
+
+void ambulo__chain_ball(ambulo__chain *chain, const char *name, int *first) {
+  static const char *const parts[] = {"x", "y", "z"};
+  *first = chain->tree->link_count;
+  for (int i = 0; i < 3; i++) {
+    const double axis[3] = {i == 0, i == 1, i == 2};
+    joint_named(chain, AMBULO_REVOLUTE, axis, name, parts[i], 1);
+  }
 }

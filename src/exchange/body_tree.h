@@ -11,11 +11,23 @@
 
 #include "ambulo/tools/import.h"
 #include "base/numtext.h"
-#include "exchange/arena.h"
-#include "exchange/mesh.h"
+#include "base/text_buffer.h"
 #include "exchange/rigid.h"
-#include "exchange/xml_tree.h"
+#include "exchange/xml.h"
 #include "model/composite.h"
+
+#include <stddef.h>
+
+/* What a geometry says of its mesh, STL (both kinds) or OBJ; read when it is asked for (a robot has
+ * many, and feet few). */
+typedef struct ambulo__mesh {
+  const char *model; /* file that names it */
+  const char *file;  /* as named there: a path, package://PACKAGE/PATH, model:// or file:// */
+  double scale[3];
+  int tried;
+  double *points; /* [count][3], scaled; NULL: not read, or nothing to read */
+  int count;
+} ambulo__mesh;
 
 typedef struct ambulo__tree_link {
   const char *name;
@@ -103,13 +115,21 @@ void ambulo__tree_gravity(ambulo__tree *tree);
 /* Numbers that no model may have, each an error where the link stands in the source; limits that
  * are as good as none go. */
 void ambulo__tree_check(ambulo__tree *tree);
+/* Limits of a link's coordinate, `scale` times those of the file; an error at the node where they
+ * contradict each other. */
+void ambulo__tree_range(ambulo__tree *tree, int link, const double range[2], double scale,
+                        const ambulo__xml_node *node);
+/* Makes the axis of a joint a unit vector; 0 after an error at the node: it has no direction. */
+int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
+                      const ambulo__xml_node *node);
 /* Index of a link by name, -1: none. */
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */
 int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
-/* Placement of a link in the world at q = 0; and in the start pose. */
+/* Placement of a link in the world at q = 0. */
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
-ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link);
+/* Unit vectors along forward, left and up. */
+void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback);
 
@@ -135,5 +155,55 @@ int ambulo__chain_end(ambulo__chain *chain, const char *name);
 void ambulo__chain_free(ambulo__chain *chain, const char *prefix);
 /* Three hinges through one point about x, y and z of what was before: NAME_x, NAME_y, NAME_z. */
 void ambulo__chain_ball(ambulo__chain *chain, const char *name, int *first);
+
+/* ------------------------------------------------- solids of feet (foot_solids.c) */
+
+/* Of the arena; NULL without memory, or where `file` is NULL or empty. */
+ambulo__mesh *ambulo__mesh_named(ambulo__arena *arena, const char *model, const char *file);
+
+/* Where the solids of a link would touch the ground at q = 0. */
+typedef struct ambulo__sole {
+  double along[2], across[2], height; /* m, along forward, left and up of the world */
+  int solids, meshes;                 /* how many were read, and were not */
+} ambulo__sole;
+
+/* 'l', 'r' or 0: what the name of a link says; of lfoot only if there is an rfoot. */
+char ambulo__side_of_link(const ambulo__tree *tree, int link);
+
+/* The sole of a link and all that is fixed to it; axes: forward, left, up. Meshes count where it
+ * has no other solids. 0, with the number of meshes, if those cannot be read either. */
+int ambulo__sole_of(const ambulo__tree *tree, int link, const double axes[3][3],
+                    ambulo__sole *sole);
+/* The link with the lowest sole, of meshes where there are none of other solids, among those whose
+ * names say `side`; -1 without. */
+int ambulo__lowest_link(const ambulo__tree *tree, const double axes[3][3], char side);
+
+/* ------------------------------------ left and right in names (mirror_pairs.c) */
+
+/* 'l', 'r', or 0 where a name says neither: hip_l, LeftFoot, l_knee, L_ANKLE, RHipPitch. */
+char ambulo__side_of(const char *name);
+/* The name with the side that it says exchanged, all of them, into text[0..size); 0 where it says
+ * none, or does not fit. */
+int ambulo__other_side(const char *name, char *text, size_t size);
+/* The name with the letter l or r at one place exchanged; 0 where there is another. */
+int ambulo__flip_letter(const char *name, size_t at, char *text, size_t size);
+
+/* -------------------------------------------------------------- steps of an import */
+
+/* One reader for each format: from the root element to a tree. Faults are recorded in tree->xml,
+ * and reading goes on where it can. */
+void ambulo__read_urdf(ambulo__tree *tree, const ambulo__xml_node *root);
+void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root);
+/* `path`: of the file, in whose folder included ones are looked for. */
+void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *path);
+
+/* Heels and toes by options and from solids (feet.c). */
+void ambulo__find_feet(ambulo__tree *tree);
+/* Defaults within their ranges, the feet on the ground (feet.c). */
+void ambulo__find_start(ambulo__tree *tree);
+/* Partners of coordinates, left for right (mirror_pairs.c). */
+void ambulo__find_mirrors(ambulo__tree *tree);
+/* The model file as text (tree_yaml.c). `source`: name of the file it came from. */
+void ambulo__tree_print(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text);
 
 #endif

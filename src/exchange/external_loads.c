@@ -19,8 +19,8 @@
 #include "formats/paths.h"
 #include "base/text_buffer.h"
 #include "exchange/osim.h"
-#include "exchange/side.h"
-#include "exchange/xml_tree.h"
+#include "exchange/body_tree.h"
+#include "exchange/xml.h"
 #include "model/model.h"
 
 typedef struct loads {
@@ -33,11 +33,6 @@ typedef struct loads {
 static const char *value_of(const ambulo__xml_node *node, const char *name) {
   const char *text = ambulo__osim_text(node, name, NULL);
   return strcmp(text, "Unassigned") == 0 ? "" : text;
-}
-
-static const char *last_name(const char *path) {
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
 }
 
 /* --------------------------------------------------------------------------- feet */
@@ -81,7 +76,7 @@ static int foot_of_body(const ambulo_model *model, const char *body) {
 /* ------------------------------------------------------------------------- forces */
 
 static void expect_ground(loads *l, const ambulo__xml_node *force, const char *which) {
-  const char *frame = last_name(value_of(force, which));
+  const char *frame = ambulo__xml_last_name(value_of(force, which));
   if (!frame[0] || strcmp(frame, "ground") == 0) return;
   ambulo__xml_error(l->xml, ambulo__xml_child(force, which), AMBULO_E_SCHEMA,
                     "express it in ground",
@@ -108,7 +103,7 @@ static void add_force(loads *l, const ambulo__xml_node *force, int foot) {
 
 static void read_force(loads *l, const ambulo__xml_node *force) {
   const char *name = ambulo__xml_attribute(force, "name");
-  const char *body = last_name(value_of(force, "applied_to_body"));
+  const char *body = ambulo__xml_last_name(value_of(force, "applied_to_body"));
   int off =
       ambulo__osim_flag(force, "isDisabled", 0) || !ambulo__osim_flag(force, "appliesForce", 1);
   int foot = foot_of_body(l->model, body);
@@ -160,7 +155,7 @@ static char *find_table(const ambulo_allocator *allocator, const char *path, con
     if (*c == '\\') *c = '/';
   char *found = plain ? ambulo__sibling_path(allocator, path, plain) : NULL;
   if (found && !is_there(found)) {
-    char *other = ambulo__sibling_path(allocator, path, last_name(plain));
+    char *other = ambulo__sibling_path(allocator, path, ambulo__xml_last_name(plain));
     int better = is_there(other);
     ambulo__free(allocator, better ? found : other);
     if (better) found = other;

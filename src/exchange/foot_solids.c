@@ -1,16 +1,163 @@
-/* exchange/foot_solids.c - the lowest points of solids (foot_solids.h).
+/* exchange/foot_solids.c - the lowest points of solids (body_tree.h).
  *
  * The lowest point of an ellipsoid with half axes S in axes R is c - R S^2 R' u / |S R' u|; a
  * sphere is one, a capsule two spheres. Of cylinders the eight points of the rims along their own x
  * and y are taken, of boxes the corners, of meshes all vertices, where a foot has no other solids.
  */
-#include "exchange/foot_solids.h"
+#include "exchange/body_tree.h"
+
+#include "base/numtext.h"
+#include "base/vector.h"
+#include "formats/paths.h"
+#include "formats/read_file.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
-#include "base/vector.h"
-#include "exchange/side.h"
+/* ----------------------------------------------------------------------- meshes */
+
+/*
+ *   STL, binary   80 bytes, the number n of triangles, n times 12 floats (the normal, three
+ *                 vertices) and 2 bytes; all little-endian
+ *   STL, text     "vertex X Y Z"
+ *   OBJ           "v X Y Z"
+ */
+
+enum { HEAD = 84, TRIANGLE = 50, ABOVE = 6 };
+static const size_t most_bytes = (size_t)64 << 20;
+
+static uint32_t little_endian(const char *at) {
+  uint32_t value = 0;
+  for (int i = 3; i >= 0; i--) value = value << 8 | (unsigned char)at[i];
+  return value;
+}
+
+static double float_at(const char *at) {
+  uint32_t bits = little_endian(at);
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return (double)value;
+}
+
+static void add(ambulo__mesh *mesh, const double p[3]) {
+  if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) return;
+  for (int i = 0; i < 3; i++) mesh->points[3 * mesh->count + i] = mesh->scale[i] * p[i];
+  mesh->count++;
+}
+
+static void read_binary(ambulo__mesh *mesh, const char *text, size_t triangles) {
+  for (size_t t = 0; t < triangles; t++)
+    for (size_t v = 1; v < 4; v++) {
+      const char *at = text + HEAD + TRIANGLE * t + 12 * v;
+      const double p[3] = {float_at(at), float_at(at + 4), float_at(at + 8)};
+      add(mesh, p);
+    }
+}
+
+/* the three numbers behind `word` at the beginning of a line; 0 where it has another */
+static int read_line(const char *line, const char *word, double p[3]) {
+  size_t length = strlen(word);
+  line += strspn(line, " \t");
+  if (strncmp(line, word, length) != 0 || !strchr(" \t", line[length]) || !line[length]) return 0;
+  line += length;
+  for (int i = 0; i < 3; i++) {
+    line += strspn(line, " \t");
+    size_t digits = strcspn(line, " \t\r\n");
+    if (!ambulo__parse_double(line, digits, &p[i])) return 0;
+    line += digits;
+  }
+  return 1;
+}
+
+/* counts them, where there is no room for them yet */
+static int read_lines(ambulo__mesh *mesh, const char *text, const char *word) {
+  int count = 0;
+  for (const char *line = text; line; line = strchr(line, '\n')) {
+    double p[3];
+    line += *line == '\n';
+    if (!read_line(line, word, p)) continue;
+    count++;
+    if (mesh->points) add(mesh, p);
+  }
+  return count;
+}
+
+static void read_text(ambulo__arena *arena, ambulo__mesh *mesh, const char *text, size_t length) {
+  uint32_t triangles = length >= HEAD ? little_endian(text + 80) : 0;
+  int binary = length >= HEAD && length == HEAD + TRIANGLE * (size_t)triangles;
+  const char *word = strncmp(text, "solid", 5) == 0 ? "vertex" : "v";
+  size_t count = binary ? 3 * (size_t)triangles : (size_t)read_lines(mesh, text, word);
+  if (count == 0) return;
+  mesh->points = ambulo__arena_take(arena, 3 * count, sizeof *mesh->points);
+  if (!mesh->points) return;
+  if (binary)
+    read_binary(mesh, text, triangles);
+  else
+    (void)read_lines(mesh, text, word);
+}
+
+static int is_there(const char *path) {
+  struct stat about;
+  return path && stat(path, &about) == 0 && S_ISREG(about.st_mode);
+}
+
+/* beside the model, and with `above` also in the folders above; to be freed, NULL: not there */
+static char *beside(const ambulo_allocator *allocator, const char *model, const char *file,
+                    int above) {
+  char name[1024];
+  for (int up = 0; up <= above; up++) {
+    int length = 0;
+    for (int k = 0; k < up; k++)
+      length += snprintf(name + length, sizeof name - (size_t)length, "../");
+    int all = snprintf(name + length, sizeof name - (size_t)length, "%s", file);
+    if (all < 0 || (size_t)(length + all) >= sizeof name) return NULL;
+    char *path = ambulo__sibling_path(allocator, model, name);
+    if (is_there(path)) return path;
+    ambulo__free(allocator, path);
+  }
+  return NULL;
+}
+
+static char *find(const ambulo_allocator *allocator, const ambulo__mesh *mesh) {
+  static const char *const schemes[] = {"package://", "model://", "file://"};
+  const char *file = mesh->file;
+  int in_package = 0;
+  for (int i = 0; i < 3; i++) {
+    size_t length = strlen(schemes[i]);
+    if (strncmp(file, schemes[i], length) != 0) continue;
+    file += length;
+    in_package = i < 2;
+    break;
+  }
+  char *path = beside(allocator, mesh->model, file, in_package ? ABOVE : 0);
+  const char *inner = in_package ? strchr(file, '/') : NULL;
+  if (!path && inner) path = beside(allocator, mesh->model, inner + 1, ABOVE);
+  return path;
+}
+
+ambulo__mesh *ambulo__mesh_named(ambulo__arena *arena, const char *model, const char *file) {
+  if (!model || !file || !file[0]) return NULL;
+  ambulo__mesh *mesh = ambulo__arena_take(arena, 1, sizeof *mesh);
+  if (mesh) *mesh = (ambulo__mesh){.model = model, .file = file, .scale = {1.0, 1.0, 1.0}};
+  return mesh;
+}
+
+static void read_mesh(ambulo__arena *arena, ambulo__mesh *mesh) {
+  char *text = NULL;
+  size_t length = 0;
+  if (mesh->tried) return;
+  mesh->tried = 1;
+  char *path = find(&arena->allocator, mesh);
+  if (path && !ambulo__read_file(path, most_bytes, &arena->allocator, NULL, &text, &length))
+    read_text(arena, mesh, text, length);
+  ambulo__free(&arena->allocator, text);
+  ambulo__free(&arena->allocator, path);
+}
+
+/* ------------------------------------------------------------------------ soles */
 
 enum { MOST = 8 };
 static const double thickness = 0.02; /* m: a sole that is not quite level is still one */
@@ -23,7 +170,7 @@ char ambulo__side_of_link(const ambulo__tree *tree, int link) {
   return ambulo__tree_find(tree, other) >= 0 ? name[0] : 0;
 }
 
-int ambulo__rigid_leader(const ambulo__tree *tree, int link) {
+static int rigid_leader(const ambulo__tree *tree, int link) {
   while (tree->links[link].type == AMBULO_FIXED && tree->links[link].parent >= 0)
     link = tree->links[link].parent;
   return link;
@@ -83,7 +230,7 @@ static int hangs_on(const ambulo__tree *tree, int link, int above) {
 /* one of `whole`: of the link and all below it, else of what is fixed to it */
 static int belongs(const ambulo__tree *tree, int solid, int leader, int whole) {
   int link = tree->solids[solid].link;
-  return whole ? hangs_on(tree, link, leader) : ambulo__rigid_leader(tree, link) == leader;
+  return whole ? hangs_on(tree, link, leader) : rigid_leader(tree, link) == leader;
 }
 
 /* which solids of a foot count */
@@ -103,7 +250,7 @@ static void widen(ambulo__sole *sole, int pass, const double p[3]) {
 static void widen_by_mesh(const ambulo__tree *tree, const ambulo__tree_solid *s,
                           const double axes[3][3], int pass, ambulo__sole *sole) {
   if (!s->mesh) return;
-  ambulo__mesh_read(tree->arena, s->mesh);
+  read_mesh(tree->arena, s->mesh);
   ambulo__rigid link = ambulo__tree_place(tree, s->link);
   ambulo__rigid place = ambulo__rigid_times(&link, &s->at);
   for (int k = 0; k < s->mesh->count; k++) {
@@ -155,7 +302,7 @@ static int sole_of_meshes(const ambulo__tree *tree, int leader, const double axe
 
 int ambulo__sole_of(const ambulo__tree *tree, int link, const double axes[3][3],
                     ambulo__sole *sole) {
-  int leader = ambulo__rigid_leader(tree, link);
+  int leader = rigid_leader(tree, link);
   if (sole_of_solids(tree, leader, axes, sole)) return 1;
   return sole->solids == 0 && sole->meshes > 0 && sole_of_meshes(tree, leader, axes, sole);
 }
@@ -166,7 +313,7 @@ int ambulo__lowest_link(const ambulo__tree *tree, const double axes[3][3], char 
   for (int meshes = 0; meshes < 2 && lowest < 0; meshes++) {
     for (int s = 0; s < tree->solid_count; s++) {
       ambulo__sole sole;
-      int leader = ambulo__rigid_leader(tree, tree->solids[s].link);
+      int leader = rigid_leader(tree, tree->solids[s].link);
       if (ambulo__side_of_link(tree, leader) != side) continue;
       int found = meshes ? sole_of_meshes(tree, leader, axes, &sole)
                          : sole_of_solids(tree, leader, axes, &sole);

@@ -12,7 +12,7 @@
 #include "base/sized.h"
 #include "formats/atomic_file.h"
 #include "formats/output_check.h"
-#include "exchange/formats.h"
+#include "exchange/body_tree.h"
 
 static int options_are_sane(const ambulo_import_options *o) {
   return o->pose_count >= 0 && o->foot_count >= 0 && o->heel_count >= 0 && o->toe_count >= 0 &&
@@ -59,11 +59,6 @@ static void expect_motion(const ambulo__tree *tree, const ambulo__xml_node *root
                       "the model has no mass; expected at least one body");
 }
 
-static const char *base_name(const char *path) {
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
-}
-
 /* a name as model files have them, of whatever the source has */
 static const char *model_name(ambulo__arena *arena, const char *name) {
   char *copy = ambulo__arena_copy(arena, name, strlen(name) > 64 ? 64 : strlen(name));
@@ -89,7 +84,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
   tree->name = model_name(tree->arena, tree->name);
-  if (!tree->arena->failed) ambulo__tree_print(tree, base_name(path), text);
+  if (!tree->arena->failed) ambulo__tree_print(tree, ambulo__xml_last_name(path), text);
   if (tree->arena->failed || ambulo__text_status(text))
     return ambulo__error(xml->diagnostics, AMBULO_E_MEMORY, ambulo__nowhere, NULL, "out of memory");
   return AMBULO_OK;

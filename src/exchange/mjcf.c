@@ -4,11 +4,230 @@
  * torque limits from actuators. Angles are degrees unless the compiler says radian; z is up.
  * Tendons, equalities, springs and dampers of joints, armature and contacts are not carried over.
  */
+#include "exchange/mjcf.h"
+
+#include "base/numtext.h"
+#include "base/vector.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/numtext.h"
-#include "exchange/mjcf.h"
+/* <include file=...> of a MuJoCo model (mjcf.h).
+ *
+ * The element is replaced by the children of the file's root. Names are relative to the folder of
+ * the model; a file may be included once, as MuJoCo has it, so that none can include itself. */
+
+enum { MOST_FILES = 64, MOST_DEPTH = 200 };
+
+typedef struct includes {
+  ambulo__xml *xml;
+  const char *path; /* of the model */
+  const char *files[MOST_FILES];
+  int count;
+} includes;
+
+/* in the folder of the model */
+static const char *path_of(includes *in, const char *file) {
+  const char *slash = strrchr(in->path, '/');
+  if (file[0] == '/' || !slash) return ambulo__arena_copy(in->xml->arena, file, strlen(file));
+  return ambulo__arena_print(in->xml->arena, "%.*s/%s", (int)(slash - in->path), in->path, file);
+}
+
+static ambulo__xml_node *load(includes *in, const ambulo__xml_node *node) {
+  const char *file = ambulo__xml_attribute(node, "file");
+  if (!file || !file[0]) {
+    ambulo__xml_error(in->xml, node, AMBULO_E_SCHEMA, NULL,
+                      "<include> names no file; expected file=...");
+    return NULL;
+  }
+  for (int i = 0; i < in->count; i++) {
+    if (strcmp(in->files[i], file) != 0) continue;
+    ambulo__xml_error(in->xml, node, AMBULO_E_SCHEMA, NULL,
+                      "'%.80s' is included twice; expected each file once", file);
+    return NULL;
+  }
+  if (in->count == MOST_FILES) {
+    ambulo__xml_error(in->xml, node, AMBULO_E_LIMIT, NULL,
+                      "too many <include>; expected at most %d", (int)MOST_FILES);
+    return NULL;
+  }
+  in->files[in->count++] = file;
+  const char *path = path_of(in, file);
+  ambulo__xml_node *root = path && path[0] ? ambulo__xml_load(in->xml, path) : NULL;
+  if (!root)
+    ambulo__xml_error(in->xml, node, in->xml->status ? in->xml->status : AMBULO_E_MEMORY, NULL,
+                      "the included file '%.80s' could not be read", file);
+  return root;
+}
+
+/* `node` of `parent` behind `before` (NULL: the first) by the children of `root` */
+static void replace(ambulo__xml_node *parent, ambulo__xml_node *before, ambulo__xml_node *node,
+                    ambulo__xml_node *root) {
+  ambulo__xml_node *first = root->first ? root->first : node->next;
+  for (ambulo__xml_node *n = root->first; n; n = n->next) n->parent = parent;
+  if (root->last) root->last->next = node->next;
+  *(before ? &before->next : &parent->first) = first;
+  if (parent->last == node) parent->last = root->last ? root->last : before;
+}
+
+static void expand(includes *in, ambulo__xml_node *parent, int depth) {
+  if (depth > MOST_DEPTH) {
+    ambulo__xml_error(in->xml, parent, AMBULO_E_LIMIT, NULL,
+                      "included elements are nested too deeply; expected at most %d levels",
+                      (int)MOST_DEPTH);
+    return;
+  }
+  ambulo__xml_node *before = NULL, *node = parent->first;
+  while (node && !in->xml->status) {
+    if (!ambulo__xml_is(node, "include")) {
+      expand(in, node, depth + 1);
+      before = node;
+      node = node->next;
+      continue;
+    }
+    ambulo__xml_node *root = load(in, node);
+    if (!root) return;
+    replace(parent, before, node, root);
+    node = before ? before->next : parent->first;
+  }
+}
+
+static void include_files(ambulo__xml *xml, ambulo__xml_node *root, const char *path) {
+  includes in = {.xml = xml, .path = path};
+  expand(&in, root, 0);
+}
+
+/* the start pose of a MuJoCo model: its first keyframe.
+ *
+ * qpos has of a free joint its place in the world and a quaternion, of a ball a quaternion, of
+ * others a number, in rad or m, all in the order of the joints. With R the turn, of a free joint
+ * against the body's own orientation in the file and in axes along forward, left and up,
+ *
+ *     free   R = Rot_y(tilt) Rot_x(list) Rot_z(rotation)     (chain.c)
+ *     ball   R = Rot_x(x) Rot_y(y) Rot_z(z)
+ */
+
+enum { MOST = 4096 };
+
+static void read_key(ambulo__mjcf *m) {
+  const ambulo__xml_node *frames = ambulo__xml_child(m->root, "keyframe");
+  const ambulo__xml_node *key = ambulo__xml_child(frames, "key");
+  const char *text = key ? ambulo__xml_attribute(key, "qpos") : NULL;
+  const char *name = key ? ambulo__xml_attribute(key, "name") : NULL;
+  if (!text) return;
+  m->key = ambulo__arena_take(m->tree->arena, MOST, sizeof *m->key);
+  if (!m->key) return;
+  m->key_count = ambulo__xml_numbers(m->xml, key, "qpos", text, MOST, 0, m->key);
+  ambulo__tree_note(m->tree, key, "the start pose is that of keyframe '%.60s'",
+                    name && name[0] ? name : "0");
+}
+
+const double *ambulo__mjcf_take(ambulo__mjcf *m, int count) {
+  int at = m->key_used;
+  m->key_used += count;
+  return m->key && m->key_used <= m->key_count ? m->key + at : NULL;
+}
+
+static void set(ambulo__tree *tree, int link, double value) {
+  if (link < tree->link_count) tree->links[link].coordinate.default_value = value;
+}
+
+void ambulo__mjcf_start_free(ambulo__mjcf *m, int first, const ambulo__rigid *body) {
+  const double *key = ambulo__mjcf_take(m, 7);
+  ambulo__rigid turn = ambulo__rigid_identity();
+  double axes[3][3], n[3][3];
+  if (!key || !ambulo__rotation_of_quaternion(key + 3, turn.r)) return;
+  ambulo__rigid own = ambulo__rigid_turned(body), back = ambulo__rigid_inverse(&own);
+  turn = ambulo__rigid_times(&turn, &back);
+  ambulo__tree_axes(m->tree, axes);
+  for (int j = 0; j < 3; j++) {
+    double column[3];
+    ambulo__rigid_vector(&turn, axes[j], column);
+    for (int i = 0; i < 3; i++) n[i][j] = ambulo__dot(axes[i], column);
+  }
+  for (int i = 0; i < 3; i++) set(m->tree, first + i, key[i] - body->p[i]);
+  set(m->tree, first + 3, atan2(n[0][2], n[2][2]));
+  set(m->tree, first + 4, -asin(fmax(-1.0, fmin(1.0, n[1][2]))));
+  set(m->tree, first + 5, atan2(n[1][0], n[1][1]));
+}
+
+void ambulo__mjcf_start_ball(ambulo__mjcf *m, int first) {
+  const double *key = ambulo__mjcf_take(m, 4);
+  double n[3][3];
+  if (!key || !ambulo__rotation_of_quaternion(key, n)) return;
+  set(m->tree, first, atan2(-n[1][2], n[2][2]));
+  set(m->tree, first + 1, asin(fmax(-1.0, fmin(1.0, n[0][2]))));
+  set(m->tree, first + 2, atan2(-n[0][1], n[0][0]));
+}
+
+/* torque limits from MuJoCo's actuators (mjcf.h).
+ *
+ * An actuator with a joint pushes with gear times its force. The force is within forcerange; of a
+ * motor, without one, within ctrlrange. Forces of several actuators of a joint add up, and the
+ * joint's actuatorfrcrange bounds the sum.
+ */
+
+/* the actuator's bounds on the joint's torque; 0: none */
+static int bounds_of(ambulo__mjcf *m, const ambulo__xml_node *n, double bounds[2]) {
+  double gear[6] = {1.0}, force[2];
+  int motor = ambulo__xml_is(n, "motor");
+  (void)ambulo__mjcf_numbers(m, n, NULL, "gear", 1, 6, gear);
+  int limited = ambulo__mjcf_flag(m, n, NULL, "forcelimited", -1);
+  int given = limited != 0 && ambulo__mjcf_numbers(m, n, NULL, "forcerange", 2, 2, force);
+  if (!given && motor && ambulo__mjcf_flag(m, n, NULL, "ctrllimited", -1) != 0)
+    given = ambulo__mjcf_numbers(m, n, NULL, "ctrlrange", 2, 2, force);
+  if (!given || !(force[0] < force[1])) return 0;
+  bounds[0] = gear[0] * force[gear[0] < 0.0];
+  bounds[1] = gear[0] * force[gear[0] >= 0.0];
+  return 1;
+}
+
+static void apply(ambulo_coordinate *c, const double bounds[2], int others) {
+  for (int i = 0; i < 2; i++) {
+    if (others)
+      c->torque[i] += bounds[i];
+    else if (!isfinite(c->torque[i]) || fabs(bounds[i]) < fabs(c->torque[i]))
+      c->torque[i] = bounds[i];
+  }
+}
+
+/* whether an actuator before this one has the same joint */
+static int has_earlier(const ambulo__xml_node *set, const ambulo__xml_node *node,
+                       const char *joint) {
+  for (const ambulo__xml_node *n = set->first; n && n != node; n = n->next) {
+    const char *other = ambulo__xml_attribute(n, "joint");
+    if (other && strcmp(other, joint) == 0) return 1;
+  }
+  return 0;
+}
+
+static void read_actuators(ambulo__mjcf *m) {
+  int elsewhere = 0;
+  AMBULO__XML_EACH (set, m->root, "actuator") {
+    for (const ambulo__xml_node *n = set->first; n; n = n->next) {
+      const char *joint = ambulo__xml_attribute(n, "joint");
+      int link = joint ? ambulo__tree_find_coordinate(m->tree, joint) : -1;
+      double bounds[2];
+      elsewhere += link < 0;
+      if (link >= 0 && bounds_of(m, n, bounds))
+        apply(&m->tree->links[link].coordinate, bounds, has_earlier(set, n, joint));
+    }
+  }
+  if (elsewhere)
+    ambulo__tree_note(m->tree, NULL,
+                      "%d actuators on tendons, sites or joints of three axes are left out",
+                      elsewhere);
+}
+
+int ambulo__mjcf_is_driven(const ambulo__mjcf *m, const char *joint) {
+  AMBULO__XML_EACH (set, m->root, "actuator") {
+    if (has_earlier(set, NULL, joint)) return 1;
+  }
+  return 0;
+}
+
+/* ------------------------------------------------------------------------ settings */
 
 static void read_sequence(ambulo__mjcf *m, const ambulo__xml_node *compiler) {
   const char *text = ambulo__xml_attribute(compiler, "eulerseq");
@@ -91,22 +310,18 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
   const char *name = ambulo__xml_attribute(root, "model");
   tree->format = "MuJoCo";
   if (name && name[0]) tree->name = name;
-  ambulo__mjcf_include(tree->xml, root, path);
+  include_files(tree->xml, root, path);
   tree->gravity[0] = tree->gravity[1] = 0.0;
   tree->gravity[2] = -9.81;
   tree->up = 'z';
-  for (const ambulo__xml_node *n = ambulo__xml_child(root, "option"); n;
-       n = ambulo__xml_next(n, "option"))
-    read_option(tree, n);
+  AMBULO__XML_EACH (n, root, "option") read_option(tree, n);
   ambulo__tree_gravity(tree);
-  for (const ambulo__xml_node *n = ambulo__xml_child(root, "compiler"); n;
-       n = ambulo__xml_next(n, "compiler"))
-    read_compiler(&m, n);
+  AMBULO__XML_EACH (n, root, "compiler") read_compiler(&m, n);
   if (tree->xml->status || tree->arena->failed) return;
-  ambulo__mjcf_key(&m);
+  read_key(&m);
   ambulo__mjcf_bodies(&m);
   if (tree->xml->status || tree->arena->failed) return;
   set_total_mass(&m);
-  ambulo__mjcf_actuators(&m);
+  read_actuators(&m);
   tell_leftovers(&m);
 }

@@ -2,7 +2,7 @@
 #ifndef AMBULO_EXCHANGE_MJCF_H
 #define AMBULO_EXCHANGE_MJCF_H
 
-#include "exchange/formats.h"
+#include "exchange/body_tree.h"
 
 typedef enum ambulo__mjcf_inertia {
   AMBULO__FROM_INERTIAL, /* inertiafromgeom="false" */

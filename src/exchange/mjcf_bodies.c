@@ -33,22 +33,14 @@ static const char *given_name(ambulo__mjcf *m, const ambulo__xml_node *node, con
 
 /* -------------------------------------------------------------------------- joints */
 
-static void read_limits(reading *b, const ambulo__xml_node *joint, int slides,
-                        ambulo_coordinate *c) {
+static void read_limits(reading *b, const ambulo__xml_node *joint, int slides, int link) {
   ambulo__mjcf *m = b->m;
+  ambulo_coordinate *c = &m->tree->links[link].coordinate;
   double range[2], unit = slides ? 1.0 : m->angle, force[2];
   int limited = ambulo__mjcf_flag(m, joint, b->around, "limited", -1);
   int given = ambulo__mjcf_numbers(m, joint, b->around, "range", 2, 2, range);
   if (limited < 0) limited = m->automatic_limits && given;
-  if (limited && given) {
-    if (range[0] > range[1])
-      ambulo__xml_error(m->xml, joint, AMBULO_E_MODEL, NULL,
-                        "range of joint '%.60s' contradicts itself (got %s to %s); expected lower "
-                        "<= upper",
-                        c->name, ambulo__number_text(range[0]).text,
-                        ambulo__number_text(range[1]).text);
-    for (int i = 0; i < 2; i++) c->range[i] = unit * range[i];
-  }
+  if (limited && given) ambulo__tree_range(m->tree, link, range, unit, joint);
   if (ambulo__mjcf_numbers(m, joint, b->around, "actuatorfrcrange", 2, 2, force) &&
       force[0] < force[1]) {
     c->torque[0] = force[0];
@@ -70,8 +62,7 @@ static void count_passive(reading *b, const ambulo__xml_node *joint) {
 }
 
 static void shift(ambulo__chain *chain, const double by[3], double factor) {
-  const double p[3] = {factor * by[0], factor * by[1], factor * by[2]};
-  ambulo__rigid step = ambulo__rigid_shift(p);
+  ambulo__rigid step = ambulo__rigid_step(1, by, factor);
   ambulo__chain_place(chain, &step);
 }
 
@@ -80,15 +71,10 @@ static void one_coordinate(reading *b, ambulo__chain *chain, const ambulo__xml_n
   ambulo__mjcf *m = b->m;
   double axis[3] = {0, 0, 1}, zero = 0.0;
   (void)ambulo__mjcf_numbers(m, joint, b->around, "axis", 3, 3, axis);
-  if (!(ambulo__normalize(axis) > 1e-12)) {
-    ambulo__xml_error(m->xml, joint, AMBULO_E_MODEL, NULL,
-                      "the axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
-                      name);
-    return;
-  }
+  if (!ambulo__tree_axis(m->tree, axis, name, joint)) return;
   int link = ambulo__chain_joint(chain, slides ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, axis, name);
   if (link < 0) return;
-  read_limits(b, joint, slides, &m->tree->links[link].coordinate);
+  read_limits(b, joint, slides, link);
   (void)ambulo__mjcf_numbers(m, joint, b->around, "ref", 1, 1, &zero);
   const double *key = ambulo__mjcf_take(m, 1);
   m->tree->links[link].coordinate.default_value = ambulo__tree_pose(m->tree, name,
@@ -96,9 +82,7 @@ static void one_coordinate(reading *b, ambulo__chain *chain, const ambulo__xml_n
                                                                     : slides ? zero
                                                                              : zero * m->angle);
   if (zero == 0.0) return;
-  const double back[3] = {-zero * axis[0], -zero * axis[1], -zero * axis[2]};
-  ambulo__rigid reference =
-      slides ? ambulo__rigid_shift(back) : ambulo__rigid_turn(axis, -zero * m->angle);
+  ambulo__rigid reference = ambulo__rigid_step(slides, axis, slides ? -zero : -zero * m->angle);
   ambulo__chain_place(chain, &reference);
 }
 
@@ -264,12 +248,8 @@ static int count_bodies(const ambulo__xml_node *node) {
 void ambulo__mjcf_bodies(ambulo__mjcf *m) {
   ambulo__rigid none = ambulo__rigid_identity();
   int roots = 0, ground = -1;
-  for (const ambulo__xml_node *n = ambulo__xml_child(m->root, "worldbody"); n;
-       n = ambulo__xml_next(n, "worldbody"))
-    roots += count_bodies(n);
+  AMBULO__XML_EACH (n, m->root, "worldbody") roots += count_bodies(n);
   if (roots > 1)
     ground = ambulo__tree_add(m->tree, "ground", -1, AMBULO_FIXED, &none, NULL, m->root);
-  for (const ambulo__xml_node *n = ambulo__xml_child(m->root, "worldbody"); n;
-       n = ambulo__xml_next(n, "worldbody"))
-    read_bodies(m, n, ground, class_of(n, NULL), &none);
+  AMBULO__XML_EACH (n, m->root, "worldbody") read_bodies(m, n, ground, class_of(n, NULL), &none);
 }

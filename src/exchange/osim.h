@@ -5,7 +5,7 @@
 #ifndef AMBULO_EXCHANGE_OSIM_H
 #define AMBULO_EXCHANGE_OSIM_H
 
-#include "exchange/formats.h"
+#include "exchange/body_tree.h"
 
 typedef struct ambulo__osim_body {
   const char *name; /* body 0 is the ground */
@@ -79,6 +79,10 @@ void ambulo__osim_contacts(ambulo__osim *o);
 const ambulo__xml_node *ambulo__osim_function(const ambulo__xml_node *holder);
 /* Value at x; 0 and an error at functions that are not known. */
 double ambulo__osim_value(ambulo__osim *o, const ambulo__xml_node *function, double x);
+/* How far scale times the function goes from `from` over the range of a <Coordinate> (NULL: at x).
+ */
+double ambulo__osim_travel(ambulo__osim *o, const ambulo__xml_node *function, double scale,
+                           const ambulo__xml_node *coordinate, double x, double from);
 /* 1 and slope x + offset, if the function is a straight line: constants, linear functions, splines
  * through points on a line. */
 int ambulo__osim_is_linear(ambulo__osim *o, const ambulo__xml_node *function, double *slope,

@@ -7,11 +7,6 @@
 #include "base/numtext.h"
 #include "exchange/osim.h"
 
-static const char *name_of(const ambulo__xml_node *node) {
-  const char *name = ambulo__xml_attribute(node, "name");
-  return name ? name : "";
-}
-
 /* the constraint that makes a coordinate follow another; NULL without */
 static const ambulo__xml_node *coupler_of(const ambulo__osim *o, const char *coordinate) {
   for (const ambulo__xml_node *n = ambulo__osim_objects(o->model, "ConstraintSet"); n;
@@ -28,7 +23,7 @@ static const ambulo__xml_node *coupler_of(const ambulo__osim *o, const char *coo
 static const ambulo__xml_node *find_coordinate(const ambulo__xml_node *node, const char *name,
                                                int depth) {
   for (const ambulo__xml_node *n = node ? node->first : NULL; n; n = n->next) {
-    if (ambulo__xml_is(n, "Coordinate") && strcmp(name_of(n), name) == 0) return n;
+    if (ambulo__xml_is(n, "Coordinate") && strcmp(ambulo__xml_name(n), name) == 0) return n;
     const ambulo__xml_node *inner = depth > 0 ? find_coordinate(n, name, depth - 1) : NULL;
     if (inner) return inner;
   }
@@ -45,26 +40,19 @@ static double default_of(ambulo__osim *o, const ambulo__xml_node *node, const ch
  * would move over the other's range. */
 static double follow(ambulo__osim *o, const ambulo__xml_node *node, const char *name,
                      const ambulo__xml_node *coupler) {
-  enum { SAMPLES = 64 };
   const char *leader = ambulo__osim_text(coupler, "independent_coordinate_names", NULL);
   const ambulo__xml_node *holder = ambulo__xml_child(coupler, "coupled_coordinates_function");
   const ambulo__xml_node *function = holder ? holder->first : ambulo__osim_function(coupler);
   const ambulo__xml_node *leading = find_coordinate(o->model, leader, 9);
-  double scale = 1.0, x = default_of(o, leading, leader), most = 0.0;
-  double range[2] = {x, x};
+  double scale = 1.0, x = default_of(o, leading, leader);
   (void)ambulo__xml_child_vector(o->xml, coupler, "scale_factor", 1, 0, &scale);
   double value = function ? scale * ambulo__osim_value(o, function, x) : 0.0;
-  if (leading) (void)ambulo__xml_child_vector(o->xml, leading, "range", 2, 1, range);
-  for (int i = 0; i <= SAMPLES && function; i++) {
-    double at = range[0] + (range[1] - range[0]) * i / SAMPLES;
-    if (!isfinite(at)) continue;
-    most = fmax(most, fabs(scale * ambulo__osim_value(o, function, at) - value));
-  }
+  double most = function ? ambulo__osim_travel(o, function, scale, leading, x, value) : 0.0;
   ambulo__tree_note(
       o->tree, node,
       "%s follows %s (%s): it is held at %s; by its %s it would move by up to %s (rad "
       "or m) over the range of that",
-      name, leader, name_of(coupler), ambulo__number_text(value).text,
+      name, leader, ambulo__xml_name(coupler), ambulo__number_text(value).text,
       function ? function->name : "function", ambulo__three_digits(most).text);
   return value;
 }
@@ -72,7 +60,7 @@ static double follow(ambulo__osim *o, const ambulo__xml_node *node, const char *
 static void read_coordinate(ambulo__osim *o, const ambulo__xml_node *node,
                             ambulo__osim_coordinate *c) {
   ambulo__tree *tree = o->tree;
-  *c = (ambulo__osim_coordinate){.name = name_of(node), .node = node};
+  *c = (ambulo__osim_coordinate){.name = ambulo__xml_name(node), .node = node};
   c->value = default_of(o, node, c->name);
   const ambulo__xml_node *coupler = coupler_of(o, c->name);
   int locked = ambulo__osim_flag(node, "locked", 0),
@@ -112,15 +100,7 @@ void ambulo__osim_limits(ambulo__osim *o, const ambulo__osim_coordinate *coordin
                          int link) {
   double range[2];
   if (link < 0 || !ambulo__xml_child_vector(o->xml, coordinate->node, "range", 2, 1, range)) return;
-  if (range[0] > range[1]) {
-    ambulo__xml_error(
-        o->xml, coordinate->node, AMBULO_E_MODEL, NULL,
-        "range of coordinate '%.60s' contradicts itself (got %s to %s); expected lower "
-        "<= upper",
-        coordinate->name, ambulo__number_text(range[0]).text, ambulo__number_text(range[1]).text);
-    return;
-  }
-  for (int i = 0; i < 2; i++) o->tree->links[link].coordinate.range[i] = scale * range[i];
+  ambulo__tree_range(o->tree, link, range, scale, coordinate->node);
 }
 
 /* --------------------------------------------------------------------------- forces */

@@ -178,6 +178,18 @@ double ambulo__osim_value(ambulo__osim *o, const ambulo__xml_node *function, dou
   return value_of(o, function, x, 0);
 }
 
+double ambulo__osim_travel(ambulo__osim *o, const ambulo__xml_node *function, double scale,
+                           const ambulo__xml_node *coordinate, double x, double from) {
+  enum { SAMPLES = 64 };
+  double range[2] = {x, x}, most = 0.0;
+  (void)ambulo__xml_child_vector(o->xml, coordinate, "range", 2, 1, range);
+  for (int i = 0; i <= SAMPLES; i++) {
+    double at = range[0] + (range[1] - range[0]) * i / SAMPLES;
+    if (isfinite(at)) most = fmax(most, fabs(scale * ambulo__osim_value(o, function, at) - from));
+  }
+  return most;
+}
+
 /* whether all points are on the line through the first and the last, but for what is printed */
 static int on_a_line(const points *p, double *slope, double *offset) {
   int n = p->count - 1;

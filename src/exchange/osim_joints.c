@@ -37,11 +37,9 @@ typedef struct building {
 /* ------------------------------------------------------------------- one degree */
 
 static void put_still(building *b, int slides, const double axis[3], double value) {
-  double unit[3], shift[3];
-  memcpy(unit, axis, sizeof unit);
+  double unit[3] = {axis[0], axis[1], axis[2]};
   (void)ambulo__normalize(unit);
-  for (int i = 0; i < 3; i++) shift[i] = value * unit[i];
-  ambulo__rigid still = slides ? ambulo__rigid_shift(shift) : ambulo__rigid_turn(unit, value);
+  ambulo__rigid still = ambulo__rigid_step(slides, unit, value);
   ambulo__chain_place(&b->chain, &still);
 }
 
@@ -95,14 +93,7 @@ static int read_axis(building *b, const ambulo__xml_node *node, transform_axis *
   *a = (transform_axis){.node = node, .coordinate = -1, .function = ambulo__osim_function(node)};
   a->axis[0] = 1.0;
   (void)ambulo__xml_child_vector(xml, node, "axis", 3, 0, a->axis);
-  double unit[3] = {a->axis[0], a->axis[1], a->axis[2]};
-  if (!(ambulo__normalize(unit) > 1e-9)) {
-    ambulo__xml_error(xml, node, AMBULO_E_MODEL, NULL,
-                      "an axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
-                      b->joint->name);
-    return 0;
-  }
-  memcpy(a->axis, unit, sizeof unit);
+  if (!ambulo__tree_axis(b->o->tree, a->axis, b->joint->name, node)) return 0;
   if (names[0]) {
     a->coordinate = find_coordinate(b, names);
     if (a->coordinate < 0) {
@@ -119,26 +110,13 @@ static int read_axis(building *b, const ambulo__xml_node *node, transform_axis *
   return 1;
 }
 
-/* the largest way from where it is frozen, over the range of the coordinate */
-static double travel(building *b, const transform_axis *a, double frozen) {
-  const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
-  double range[2] = {c->value, c->value}, most = 0.0;
-  enum { SAMPLES = 64 };
-  (void)ambulo__xml_child_vector(b->o->xml, c->node, "range", 2, 1, range);
-  for (int i = 0; i <= SAMPLES; i++) {
-    double x = range[0] + (range[1] - range[0]) * i / SAMPLES;
-    if (!isfinite(x)) continue;
-    most = fmax(most, fabs(ambulo__osim_value(b->o, a->function, x) - frozen));
-  }
-  return most;
-}
-
 /* a function that is no joint of its own: frozen */
 static void put_frozen(building *b, const transform_axis *a, int slides) {
   const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
   double value = ambulo__osim_value(b->o, a->function, c->value);
   put_still(b, slides, a->axis, value);
-  double most = c->held ? 0.0 : travel(b, a, value);
+  double most =
+      c->held ? 0.0 : ambulo__osim_travel(b->o, a->function, 1.0, c->node, c->value, value);
   if (most == 0.0) return;
   ambulo__tree_note(b->o->tree, a->node,
                     "%s: %s follows %s by a %s: frozen at %s = %s; over its range it %s up to "
@@ -189,8 +167,7 @@ static int custom(building *b) {
   for (int i = 0; i < AXES; i++)
     axes[i] = (transform_axis){
         .coordinate = -1, .linear = 1, .axis = {i % 3 == 0, i % 3 == 1, i % 3 == 2}};
-  for (const ambulo__xml_node *n = ambulo__xml_child(spatial, "TransformAxis"); n;
-       n = ambulo__xml_next(n, "TransformAxis")) {
+  AMBULO__XML_EACH (n, spatial, "TransformAxis") {
     const char *name = ambulo__xml_attribute(n, "name");
     int i = ambulo__xml_choice(b->o->xml, n, "transform axis", name ? name : "", names, AXES);
     if (i < 0 || !read_axis(b, n, &axes[i])) return 0;

@@ -48,6 +48,11 @@ void ambulo__rigid_point(const ambulo__rigid *a, const double x[3], double out[3
   for (int i = 0; i < 3; i++) out[i] += a->p[i];
 }
 
+ambulo__rigid ambulo__rigid_step(int slides, const double axis[3], double value) {
+  const double p[3] = {value * axis[0], value * axis[1], value * axis[2]};
+  return slides ? ambulo__rigid_shift(p) : ambulo__rigid_turn(axis, value);
+}
+
 ambulo__rigid ambulo__rigid_times(const ambulo__rigid *a, const ambulo__rigid *b) {
   ambulo__rigid c;
   ambulo__rigid_point(a, b->p, c.p);

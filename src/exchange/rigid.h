@@ -13,6 +13,8 @@ ambulo__rigid ambulo__rigid_shift(const double p[3]);
 ambulo__rigid ambulo__rigid_turned(const ambulo__rigid *a);
 /* by `angle` (rad) about a unit axis through the origin */
 ambulo__rigid ambulo__rigid_turn(const double axis[3], double angle);
+/* by `value` about a unit axis, or (slides = 1) along it */
+ambulo__rigid ambulo__rigid_step(int slides, const double axis[3], double value);
 /* a b: b is placed in a */
 ambulo__rigid ambulo__rigid_times(const ambulo__rigid *a, const ambulo__rigid *b);
 ambulo__rigid ambulo__rigid_inverse(const ambulo__rigid *a);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/numtext.h"
-#include "exchange/formats.h"
+#include "exchange/body_tree.h"
 #include "model/placement.h"
 
 static const double degree = 0.017453292519943295; /* rad */

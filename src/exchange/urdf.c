@@ -12,14 +12,13 @@
  *   floating                          three sliders and three hinges (chain.c)
  *   with <mimic>                      held where it is when the joint it follows is at its pose
  */
+#include "base/numtext.h"
+#include "exchange/body_tree.h"
+#include "model/check.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "base/numtext.h"
-#include "exchange/formats.h"
-#include "exchange/urdf_parts.h"
-#include "model/check.h"
 
 typedef struct urdf_link {
   const char *name;
@@ -36,6 +35,228 @@ typedef struct urdf {
   const char **names; /* [count], for hints */
 } urdf;
 
+/* <origin xyz rpy> of a node */
+static ambulo__rigid origin_of(ambulo__xml *xml, const ambulo__xml_node *node) {
+  const ambulo__xml_node *origin = ambulo__xml_child(node, "origin");
+  double xyz[3] = {0, 0, 0}, rpy[3] = {0, 0, 0};
+  (void)ambulo__xml_vector(xml, origin, "xyz", 3, xyz);
+  (void)ambulo__xml_vector(xml, origin, "rpy", 3, rpy);
+  return ambulo__rigid_of_rpy(xyz, rpy);
+}
+
+/* ------------------------------------------------------------------------ joints */
+
+static void read_limits(ambulo__tree *tree, const ambulo__xml_node *joint, int ranged, int link) {
+  const ambulo__xml_node *limit = ambulo__xml_child(joint, "limit");
+  ambulo__xml *xml = tree->xml;
+  ambulo_coordinate *c = &tree->links[link].coordinate;
+  double range[2] = {0.0, 0.0}, most = 0.0;
+  if (ranged && limit) {
+    (void)ambulo__xml_vector(xml, limit, "lower", 1, &range[0]);
+    (void)ambulo__xml_vector(xml, limit, "upper", 1, &range[1]);
+    ambulo__tree_range(tree, link, range, 1.0, limit);
+  }
+  if (ambulo__xml_vector(xml, limit, "velocity", 1, &most) && most > 0.0) {
+    c->speed[0] = -most;
+    c->speed[1] = most;
+  }
+  most = 0.0;
+  if (ambulo__xml_vector(xml, limit, "effort", 1, &most) && most > 0.0) {
+    c->torque[0] = -most;
+    c->torque[1] = most;
+  }
+}
+
+/* two directions across the axis, the first as near to x as can be */
+static void across(const double axis[3], double first[3], double second[3]) {
+  int k = fabs(axis[0]) < 0.9 ? 0 : 1;
+  for (int i = 0; i < 3; i++) first[i] = (i == k) - axis[k] * axis[i];
+  (void)ambulo__normalize(first);
+  for (int i = 0; i < 3; i++)
+    second[i] = axis[(i + 1) % 3] * first[(i + 2) % 3] - axis[(i + 2) % 3] * first[(i + 1) % 3];
+}
+
+static void add_planar(ambulo__chain *chain, const double axis[3], const char *name) {
+  double first[3], second[3];
+  ambulo__arena *arena = chain->tree->arena;
+  across(axis, first, second);
+  (void)ambulo__chain_joint(chain, AMBULO_PRISMATIC, first,
+                            ambulo__arena_print(arena, "%.50s_first", name));
+  (void)ambulo__chain_joint(chain, AMBULO_PRISMATIC, second,
+                            ambulo__arena_print(arena, "%.50s_second", name));
+  (void)ambulo__chain_joint(chain, AMBULO_REVOLUTE, axis,
+                            ambulo__arena_print(arena, "%.50s_turn", name));
+}
+
+/* the joint beside this one that has a name; NULL */
+static const ambulo__xml_node *joint_named(const ambulo__xml_node *beside, const char *name) {
+  const ambulo__xml_node *n = ambulo__xml_child(beside->parent, "joint");
+  while (n && strcmp(ambulo__xml_name(n), name) != 0) n = ambulo__xml_next(n, "joint");
+  return n;
+}
+
+/* The value at which a joint with <mimic> is held. */
+static double follow(ambulo__tree *tree, const ambulo__xml_node *joint,
+                     const ambulo__xml_node *mimic) {
+  const char *leader = ambulo__xml_attribute(mimic, "joint"), *name = ambulo__xml_name(joint);
+  double multiplier = 1.0, offset = 0.0;
+  if (!leader) {
+    ambulo__xml_error(tree->xml, mimic, AMBULO_E_SCHEMA, NULL,
+                      "<mimic> of joint '%.60s' names no joint; expected joint=...", name);
+    return 0.0;
+  }
+  (void)ambulo__xml_vector(tree->xml, mimic, "multiplier", 1, &multiplier);
+  (void)ambulo__xml_vector(tree->xml, mimic, "offset", 1, &offset);
+  double stands = ambulo__tree_pose(tree, leader, 0.0), range[2] = {stands, stands};
+  double value = multiplier * stands + offset;
+  const ambulo__xml_node *limit = ambulo__xml_child(joint_named(joint, leader), "limit");
+  (void)ambulo__xml_vector(tree->xml, limit, "lower", 1, &range[0]);
+  (void)ambulo__xml_vector(tree->xml, limit, "upper", 1, &range[1]);
+  double most = fabs(multiplier) * fmax(fabs(range[0] - stands), fabs(range[1] - stands));
+  ambulo__tree_note(tree, joint,
+                    "%s follows %s (times %s plus %s): it is held at %s; it would move by up to %s "
+                    "(rad or m) over the range of that",
+                    name, leader, ambulo__number_text(multiplier).text,
+                    ambulo__number_text(offset).text, ambulo__number_text(value).text,
+                    ambulo__three_digits(most).text);
+  return value;
+}
+
+static int read_axis(ambulo__tree *tree, const ambulo__xml_node *joint, double axis[3]) {
+  const ambulo__xml_node *node = ambulo__xml_child(joint, "axis");
+  (void)ambulo__xml_vector(tree->xml, node, "xyz", 3, axis);
+  return ambulo__tree_axis(tree, axis, ambulo__xml_name(joint), node);
+}
+
+enum { REVOLUTE, CONTINUOUS, PRISMATIC, FIXED, FLOATING, PLANAR, TYPES };
+
+static int one_coordinate(ambulo__chain *chain, int type, const ambulo__xml_node *joint,
+                          const double axis[3]) {
+  ambulo__tree *tree = chain->tree;
+  const char *name = ambulo__xml_name(joint);
+  const ambulo__xml_node *mimic = ambulo__xml_child(joint, "mimic");
+  if (mimic) {
+    ambulo__rigid held = ambulo__rigid_step(type == PRISMATIC, axis, follow(tree, joint, mimic));
+    ambulo__chain_place(chain, &held);
+    return 1;
+  }
+  int link = ambulo__chain_joint(chain, type == PRISMATIC ? AMBULO_PRISMATIC : AMBULO_REVOLUTE,
+                                 axis, name);
+  if (link < 0) return 0;
+  read_limits(tree, joint, type != CONTINUOUS, link);
+  tree->links[link].coordinate.default_value = ambulo__tree_pose(tree, name, 0.0);
+  return 1;
+}
+
+static int add_joint(ambulo__tree *tree, int parent, const ambulo__xml_node *joint,
+                     const char *child) {
+  static const char *const types[TYPES] = {"revolute", "continuous", "prismatic",
+                                           "fixed",    "floating",   "planar"};
+  const char *word = ambulo__xml_attribute(joint, "type");
+  int type = ambulo__xml_choice(tree->xml, joint, "type of joint", word ? word : "", types, TYPES);
+  double axis[3] = {1, 0, 0};
+  if (type < 0 || (type != FIXED && type != FLOATING && !read_axis(tree, joint, axis))) return -1;
+  ambulo__chain chain = ambulo__chain_begin(tree, parent, joint);
+  ambulo__rigid origin = origin_of(tree->xml, joint);
+  ambulo__chain_place(&chain, &origin);
+  const char *name = ambulo__xml_name(joint);
+  if (type == FLOATING) ambulo__chain_free(&chain, name);
+  if (type == PLANAR) add_planar(&chain, axis, name);
+  if (type <= PRISMATIC && !one_coordinate(&chain, type, joint, axis)) return -1;
+  return ambulo__chain_end(&chain, child);
+}
+
+/* ------------------------------------------------------------------------- links */
+
+static void read_inertial(ambulo__tree *tree, int link, const ambulo__xml_node *node,
+                          const char *name) {
+  static const char *const entries[] = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+  ambulo__xml *xml = tree->xml;
+  const ambulo__xml_node *mass = ambulo__xml_child(node, "mass");
+  const ambulo__xml_node *inertia = ambulo__xml_child(node, "inertia");
+  ambulo__rigid frame = origin_of(xml, node);
+  ambulo__part part = {0};
+  double entry[6] = {0};
+  if (!mass || !ambulo__xml_attribute(mass, "value")) {
+    ambulo__xml_error(xml, node, AMBULO_E_SCHEMA, NULL,
+                      "<inertial> of link '%.60s' has no mass; expected <mass value=...>", name);
+    return;
+  }
+  (void)ambulo__xml_vector(xml, mass, "value", 1, &part.mass);
+  if (!inertia && part.mass > 0.0) {
+    ambulo__xml_error(xml, node, AMBULO_E_SCHEMA, NULL,
+                      "<inertial> of link '%.60s' has a mass but no inertia; expected <inertia ixx "
+                      "ixy ixz iyy iyz izz>",
+                      name);
+    return;
+  }
+  for (int i = 0; i < 6; i++) {
+    if (!inertia || ambulo__xml_attribute(inertia, entries[i])) {
+      (void)ambulo__xml_vector(xml, inertia, entries[i], 1, &entry[i]);
+    } else if (i < 3) {
+      ambulo__xml_error(xml, inertia, AMBULO_E_SCHEMA, NULL,
+                        "<inertia> of link '%.60s' has no %s; expected six numbers", name,
+                        entries[i]);
+    }
+  }
+  memcpy(part.com, frame.p, sizeof part.com);
+  ambulo__inertia_turn((const double(*)[3])frame.r, entry, part.inertia);
+  ambulo__tree_body(tree, link, &part, mass, inertia ? inertia : node);
+}
+
+static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node *node) {
+  const ambulo__xml_node *geometry = ambulo__xml_child(node, "geometry");
+  const ambulo__xml_node *shape = geometry ? geometry->first : NULL;
+  ambulo__tree_solid solid = {.link = link, .at = origin_of(tree->xml, node)};
+  double length = 0.0;
+  if (!shape) return;
+  if (ambulo__xml_is(shape, "box")) {
+    solid.shape = AMBULO__BOX;
+    if (!ambulo__xml_vector(tree->xml, shape, "size", 3, solid.size)) return;
+    for (int i = 0; i < 3; i++) solid.size[i] *= 0.5;
+  } else if (ambulo__xml_is(shape, "sphere")) {
+    solid.shape = AMBULO__SPHERE;
+    if (!ambulo__xml_vector(tree->xml, shape, "radius", 1, solid.size)) return;
+  } else if (ambulo__xml_is(shape, "cylinder") || ambulo__xml_is(shape, "capsule")) {
+    solid.shape = ambulo__xml_is(shape, "capsule") ? AMBULO__CAPSULE : AMBULO__CYLINDER;
+    if (!ambulo__xml_vector(tree->xml, shape, "radius", 1, solid.size) ||
+        !ambulo__xml_vector(tree->xml, shape, "length", 1, &length))
+      return;
+    solid.size[1] = 0.5 * length;
+  } else {
+    solid.shape = AMBULO__MESH;
+    solid.mesh =
+        ambulo__mesh_named(tree->arena, tree->path, ambulo__xml_attribute(shape, "filename"));
+    if (solid.mesh) (void)ambulo__xml_vector(tree->xml, shape, "scale", 3, solid.mesh->scale);
+  }
+  ambulo__tree_add_solid(tree, &solid);
+}
+
+static void read_link(ambulo__tree *tree, int link, const ambulo__xml_node *node) {
+  const ambulo__xml_node *inertial = ambulo__xml_child(node, "inertial");
+  if (inertial) read_inertial(tree, link, inertial, ambulo__xml_name(node));
+  AMBULO__XML_EACH (n, node, "collision") read_collision(tree, link, n);
+}
+
+static void note_leftovers(ambulo__tree *tree, const ambulo__xml_node *root) {
+  int damped = 0, unlimited = 0;
+  AMBULO__XML_EACH (n, root, "joint") {
+    const ambulo__xml_node *dynamics = ambulo__xml_child(n, "dynamics");
+    double damping = 0.0, friction = 0.0;
+    (void)ambulo__xml_vector(tree->xml, dynamics, "damping", 1, &damping);
+    (void)ambulo__xml_vector(tree->xml, dynamics, "friction", 1, &friction);
+    damped += damping != 0.0 || friction != 0.0;
+    const char *type = ambulo__xml_attribute(n, "type");
+    int limited = type && (strcmp(type, "revolute") == 0 || strcmp(type, "prismatic") == 0);
+    unlimited += limited && !ambulo__xml_child(n, "limit") && !ambulo__xml_child(n, "mimic");
+  }
+  if (damped)
+    ambulo__tree_note(tree, root, "damping and friction of %d joints are left out", damped);
+  if (unlimited)
+    ambulo__tree_note(tree, root, "%d joints have no <limit>: their coordinates have no range",
+                      unlimited);
+}
+
 /* ------------------------------------------------------------ links and joints */
 
 static urdf_link *find(const urdf *u, const char *name) {
@@ -45,8 +266,7 @@ static urdf_link *find(const urdf *u, const char *name) {
 }
 
 static void collect_links(urdf *u, const ambulo__xml_node *root) {
-  for (const ambulo__xml_node *n = ambulo__xml_child(root, "link"); n;
-       n = ambulo__xml_next(n, "link")) {
+  AMBULO__XML_EACH (n, root, "link") {
     const char *name = ambulo__xml_attribute(n, "name");
     const urdf_link *first = name ? find(u, name) : NULL;
     if (!name) {
@@ -65,10 +285,8 @@ static void collect_links(urdf *u, const ambulo__xml_node *root) {
                         (int)AMBULO__MAX_LINKS);
       return;
     }
-    void *room =
-        ambulo__arena_grow(u->tree->arena, u->links, u->count, &u->capacity, sizeof *u->links);
-    if (!room) return;
-    u->links = room;
+    if (!ambulo__arena_grow(u->tree->arena, &u->links, u->count, &u->capacity, sizeof *u->links))
+      return;
     u->links[u->count++] = (urdf_link){.name = name, .node = n, .parent = -1};
   }
   u->names = ambulo__arena_take(u->tree->arena, (size_t)u->count + 1, sizeof *u->names);
@@ -81,23 +299,20 @@ static urdf_link *end_of(urdf *u, const ambulo__xml_node *joint, const char *whi
   const char *name = ambulo__xml_attribute(end, "link");
   if (!name) {
     ambulo__xml_error(u->xml, joint, AMBULO_E_SCHEMA, NULL, "joint '%.60s' has no <%s link=...>",
-                      ambulo__urdf_name(joint), which);
+                      ambulo__xml_name(joint), which);
     return NULL;
   }
   urdf_link *found = find(u, name);
   if (found) return found;
-  char hint[120];
-  const char *near = u->names ? ambulo__nearest(name, u->names, (size_t)u->count) : NULL;
-  if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.80s'?", near);
-  ambulo__xml_error(u->xml, end, AMBULO_E_MODEL, near ? hint : NULL,
+  ambulo__xml_error(u->xml, end, AMBULO_E_MODEL,
+                    ambulo__xml_nearest(u->xml, name, u->names, u->count),
                     "unknown %s link of joint '%.60s' (got '%.60s'); expected a link of this robot",
-                    which, ambulo__urdf_name(joint), name);
+                    which, ambulo__xml_name(joint), name);
   return NULL;
 }
 
 static void collect_joints(urdf *u, const ambulo__xml_node *root) {
-  for (const ambulo__xml_node *n = ambulo__xml_child(root, "joint"); n;
-       n = ambulo__xml_next(n, "joint")) {
+  AMBULO__XML_EACH (n, root, "joint") {
     const urdf_link *parent = end_of(u, n, "parent");
     urdf_link *child = end_of(u, n, "child");
     if (!parent || !child) continue;
@@ -105,8 +320,8 @@ static void collect_joints(urdf *u, const ambulo__xml_node *root) {
       ambulo__xml_error(u->xml, n, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
                         "link '%.60s' is the child of two joints ('%.60s', line %d, and '%.60s'); "
                         "expected a tree",
-                        child->name, ambulo__urdf_name(child->joint), child->joint->line,
-                        ambulo__urdf_name(n));
+                        child->name, ambulo__xml_name(child->joint), child->joint->line,
+                        ambulo__xml_name(n));
       continue;
     }
     child->joint = n;
@@ -170,11 +385,10 @@ static void walk(urdf *u, int root) {
     int i = stack[--top];
     const urdf_link *link = &u->links[i];
     u->links[i].reached = 1;
-    index[i] = link->joint
-                   ? ambulo__urdf_joint(u->tree, index[link->parent], link->joint, link->name)
-                   : begin_root(u, i);
+    index[i] = link->joint ? add_joint(u->tree, index[link->parent], link->joint, link->name)
+                           : begin_root(u, i);
     if (index[i] < 0) return;
-    ambulo__urdf_link(u->tree, index[i], link->node);
+    read_link(u->tree, index[i], link->node);
     for (int k = u->count - 1; k >= 0; k--)
       if (u->links[k].joint && u->links[k].parent == i && !u->links[k].reached) stack[top++] = k;
   }
@@ -205,5 +419,5 @@ void ambulo__read_urdf(ambulo__tree *tree, const ambulo__xml_node *root) {
   if (tree->xml->status || tree->arena->failed) return;
   int first = root_of(&u, root);
   if (first >= 0) walk(&u, first);
-  ambulo__urdf_leftovers(tree, root);
+  note_leftovers(tree, root);
 }

@@ -1,6 +1,6 @@
 /* Bodies of random trees: where (E.1) puts each link's mass and points is where the model has them.
  */
-#include "exchange/bodies.h"
+#include "exchange/export.h"
 
 #include "ambulo/mechanics.h"
 #include "ambulo/tools/load.h"

@@ -1,5 +1,5 @@
 /* The archive byte by byte, read back by the formats' own words. */
-#include "exchange/npz.h"
+#include "exchange/export.h"
 
 #include "support/fail_alloc.h"
 #include "support/test.h"

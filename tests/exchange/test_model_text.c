@@ -1,5 +1,5 @@
 /* Text for XML, and OpenSim's angles back to the rotation they are of. */
-#include "exchange/markup.h"
+#include "exchange/export.h"
 
 #include "exchange/rigid.h"
 #include "support/random_model.h"
@@ -9,8 +9,8 @@ static void entities(void **state) {
   (void)state;
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  ambulo__markup_text(&text, "a<b & \"c\">");
-  assert_string_equal(ambulo__text_data(&text), "a&lt;b &amp; &quot;c&quot;&gt;");
+  ambulo__markup_text(&text, "<x>", "a<b & \"c\">", "</x>");
+  assert_string_equal(ambulo__text_data(&text), "<x>a&lt;b &amp; &quot;c&quot;&gt;</x>");
   ambulo__text_clear(&text);
   ambulo__markup_element(&text, 2, "axis", (double[]){-0.0, 0.1, 1e-300}, 3);
   assert_string_equal(ambulo__text_data(&text), "\t\t<axis>0 0.1 1e-300</axis>\n");

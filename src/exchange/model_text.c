@@ -1,13 +1,76 @@
-/* exchange/osim_text.c - a model as OpenSim's version 4 has it.
+/* exchange/model_text.c - a model as XML: as OpenSim's version 4 has it, and as URDF.
  *
- * Bodies and joints are those of bodies.h; <inertia> is xx yy zz xy xz yz about the centre of mass,
- * as ours. Feet's points become markers, limits of torques coordinate actuators.
+ * Bodies and joints are those of export.h; in OpenSim <inertia> is xx yy zz xy xz yz about the
+ * centre of mass, as ours. Feet's points become markers, limits of torques coordinate actuators.
  */
-#include <math.h>
+#include "exchange/export.h"
 
 #include "ambulo/status.h"
-#include "exchange/markup.h"
-#include "exchange/texts.h"
+#include "model/placement.h"
+
+#include <math.h>
+
+/* ---------------------------------------------------------------------- markup */
+
+void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
+                         const char *after) {
+  ambulo__text_append(text, before);
+  for (const char *c = plain; *c; c++) {
+    switch (*c) {
+    case '&':
+      ambulo__text_append(text, "&amp;");
+      break;
+    case '<':
+      ambulo__text_append(text, "&lt;");
+      break;
+    case '>':
+      ambulo__text_append(text, "&gt;");
+      break;
+    case '"':
+      ambulo__text_append(text, "&quot;");
+      break;
+    default:
+      ambulo__text_append_char(text, *c);
+    }
+  }
+  ambulo__text_append(text, after);
+}
+
+static void numbers(ambulo__text_buffer *text, const char *before, const double *values, int count,
+                    const char *after) {
+  ambulo__text_append(text, before);
+  for (int i = 0; i < count; i++) {
+    if (i) ambulo__text_append_char(text, ' ');
+    ambulo__text_append_number(text, values[i] == 0.0 ? 0.0 : values[i]);
+  }
+  ambulo__text_append(text, after);
+}
+
+static void tabs(ambulo__text_buffer *text, int depth) {
+  while (depth-- > 0) ambulo__text_append_char(text, '\t');
+}
+
+void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
+                            const double *values, int count) {
+  tabs(text, depth);
+  ambulo__text_append_format(text, "<%s>", tag);
+  numbers(text, "", values, count, "");
+  ambulo__text_append_format(text, "</%s>\n", tag);
+}
+
+/* R[0] = (cb cc, -cb sc, sb), (R[1][2], R[2][2]) = cb (-sa, ca). The last angle is that of
+ * Rot_y(b)' Rot_x(a)' R, so that where cb vanishes, and a is any, c makes up for it. */
+void ambulo__xyz_of_rotation(const double r[3][3], double angles[3]) {
+  double a = atan2(-r[1][2], r[2][2]);
+  double b = atan2(r[0][2], hypot(r[0][0], r[0][1]));
+  double ca = cos(a), sa = sin(a);
+  double c = atan2(ca * r[1][0] + sa * r[2][0], ca * r[1][1] + sa * r[2][1]);
+  angles[0] = a;
+  angles[1] = b;
+  angles[2] = c;
+}
+
+/* ----------------------------------------------------------------------- OpenSim */
 
 /* OpenSim's own word for no limit of a coordinate */
 static const double unlimited = 99999.9;
@@ -18,15 +81,13 @@ const char *ambulo__export_name(const ambulo__bodies *bodies, int body) {
 }
 
 static void open_named(ambulo__text_buffer *text, int depth, const char *tag, const char *name) {
-  ambulo__markup_tabs(text, depth);
+  tabs(text, depth);
   ambulo__text_append_format(text, "<%s name=\"", tag);
-  ambulo__markup_text(text, name);
-  ambulo__text_append(text, "\">\n");
+  ambulo__markup_text(text, "", name, "\">\n");
 }
 
 static void frame_path(const ambulo__bodies *bodies, int body, ambulo__text_buffer *text) {
-  ambulo__text_append(text, body < 0 ? "/" : "/bodyset/");
-  ambulo__markup_text(text, ambulo__export_name(bodies, body));
+  ambulo__markup_text(text, body < 0 ? "/" : "/bodyset/", ambulo__export_name(bodies, body), "");
 }
 
 /* ------------------------------------------------------------------------- joints */
@@ -46,8 +107,7 @@ static void print_frame(const ambulo__bodies *bodies, int body, const char *name
                         const ambulo__rigid *place, ambulo__text_buffer *text) {
   double angles[3];
   ambulo__xyz_of_rotation(place->r, angles);
-  ambulo__text_append(text, "\t\t\t\t\t\t<PhysicalOffsetFrame name=\"");
-  ambulo__markup_text(text, name);
+  ambulo__markup_text(text, "\t\t\t\t\t\t<PhysicalOffsetFrame name=\"", name, "");
   ambulo__text_append_format(text, "%s\">\n\t\t\t\t\t\t\t<socket_parent>", end);
   frame_path(bodies, body, text);
   ambulo__text_append(text, "</socket_parent>\n");
@@ -61,8 +121,7 @@ static void print_row(const char *row, const char *coordinate, const double axis
                       ambulo__text_buffer *text) {
   open_named(text, 6, "TransformAxis", row);
   ambulo__text_append(text, "\t\t\t\t\t\t\t<coordinates>");
-  if (coordinate) ambulo__markup_text(text, coordinate);
-  ambulo__text_append(text, "</coordinates>\n");
+  if (coordinate) ambulo__markup_text(text, "", coordinate, "</coordinates>\n");
   ambulo__markup_element(text, 7, "axis", axis, 3);
   ambulo__text_append(text, coordinate ? "\t\t\t\t\t\t\t<LinearFunction name=\"function\">\n"
                                          "\t\t\t\t\t\t\t\t<coefficients>1 0</coefficients>\n"
@@ -136,12 +195,10 @@ static void print_joint(const ambulo__bodies *bodies, const ambulo__export_body 
   if (slides) aim_slider(&before, &after);
   after = ambulo__rigid_inverse(&after);
   ambulo__text_append_format(text, "\t\t\t\t<%s name=\"", kind);
-  ambulo__markup_text(text, body->name);
-  ambulo__text_append(text, "_joint\">\n\t\t\t\t\t<socket_parent_frame>");
-  ambulo__markup_text(text, parent);
-  ambulo__text_append(text, "_offset</socket_parent_frame>\n\t\t\t\t\t<socket_child_frame>");
-  ambulo__markup_text(text, body->name);
-  ambulo__text_append(text, "_offset</socket_child_frame>\n");
+  ambulo__markup_text(text, "", body->name, "_joint\">\n\t\t\t\t\t<socket_parent_frame>");
+  ambulo__markup_text(text, "", parent,
+                      "_offset</socket_parent_frame>\n\t\t\t\t\t<socket_child_frame>");
+  ambulo__markup_text(text, "", body->name, "_offset</socket_child_frame>\n");
   if (body->joints) ambulo__text_append(text, "\t\t\t\t\t<coordinates>\n");
   /* hinges first, as OpenSim numbers those of a custom joint */
   for (int pass = 0; pass < 2; pass++)
@@ -181,9 +238,7 @@ static void print_actuator(const ambulo_coordinate *c, ambulo__text_buffer *text
   open_named(text, 4, "CoordinateActuator", c->name);
   if (isfinite(c->torque[0])) ambulo__markup_element(text, 5, "min_control", &c->torque[0], 1);
   if (isfinite(c->torque[1])) ambulo__markup_element(text, 5, "max_control", &c->torque[1], 1);
-  ambulo__text_append(text, "\t\t\t\t\t<coordinate>");
-  ambulo__markup_text(text, c->name);
-  ambulo__text_append(text, "</coordinate>\n");
+  ambulo__markup_text(text, "\t\t\t\t\t<coordinate>", c->name, "</coordinate>\n");
   ambulo__markup_element(text, 5, "optimal_force", &one, 1);
   ambulo__text_append(text, "\t\t\t\t</CoordinateActuator>\n");
 }
@@ -224,4 +279,109 @@ void ambulo__export_osim(const ambulo__bodies *bodies, ambulo__text_buffer *text
   for (int i = 0; i < model->point_count; i++) print_marker(bodies, &model->points[i], text);
   end_set(text, "MarkerSet");
   ambulo__text_append(text, "\t</Model>\n</OpenSimDocument>\n");
+}
+
+/* ------------------------------------------------------------------------- URDF */
+
+/* X(q) = before J(axis, q) after, with the hinge's axis through the origin of `after`, is
+ * before after J(after' axis, q): <origin> and <axis>. Points are links without mass on fixed
+ * joints.
+ */
+
+/* without a limit: larger than any of a body, small enough for programs that square it */
+static const double urdf_unlimited = 1e9;
+
+static void print_origin(const ambulo__rigid *place, ambulo__text_buffer *text) {
+  double rpy[3];
+  ambulo__rpy_of_rotation(place->r, rpy);
+  numbers(text, "    <origin xyz=\"", place->p, 3, "\"");
+  numbers(text, " rpy=\"", rpy, 3, "\"/>\n");
+}
+
+static void print_link(const ambulo__export_body *body, ambulo__text_buffer *text) {
+  static const char *const entries[] = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+  if (!(body->mass > 0.0)) {
+    ambulo__markup_text(text, "  <link name=\"", body->name, "\"/>\n");
+    return;
+  }
+  ambulo__markup_text(text, "  <link name=\"", body->name, "\">\n    <inertial>\n");
+  numbers(text, "      <origin xyz=\"", body->com, 3, "\" rpy=\"0 0 0\"/>\n");
+  numbers(text, "      <mass value=\"", &body->mass, 1, "\"/>\n      <inertia");
+  for (int i = 0; i < 6; i++) {
+    ambulo__text_append_format(text, " %s", entries[i]);
+    numbers(text, "=\"", &body->inertia[i], 1, "\"");
+  }
+  ambulo__text_append(text, "/>\n    </inertial>\n  </link>\n");
+}
+
+static double largest(const double limits[2]) {
+  double most = fmax(fabs(limits[0]), fabs(limits[1]));
+  return isfinite(most) ? most : urdf_unlimited;
+}
+
+static void print_limit(const ambulo_coordinate *c, ambulo__text_buffer *text) {
+  double effort = largest(c->torque), velocity = largest(c->speed);
+  double low = isfinite(c->range[0]) ? c->range[0] : -urdf_unlimited;
+  double high = isfinite(c->range[1]) ? c->range[1] : urdf_unlimited;
+  int ranged = isfinite(c->range[0]) || isfinite(c->range[1]) || c->type == AMBULO_PRISMATIC;
+  numbers(text, "    <limit effort=\"", &effort, 1, "\"");
+  numbers(text, " velocity=\"", &velocity, 1, "\"");
+  if (ranged) numbers(text, " lower=\"", &low, 1, "\"");
+  if (ranged) numbers(text, " upper=\"", &high, 1, "\"");
+  ambulo__text_append(text, "/>\n");
+}
+
+static const char *kind_of(const ambulo_coordinate *c) {
+  if (!c) return "fixed";
+  if (c->type == AMBULO_PRISMATIC) return "prismatic";
+  return isfinite(c->range[0]) || isfinite(c->range[1]) ? "revolute" : "continuous";
+}
+
+static void print_urdf_joint(const ambulo__bodies *bodies, const ambulo__export_body *body,
+                             ambulo__text_buffer *text) {
+  const ambulo_coordinate *c =
+      body->joints ? &bodies->model->coordinates[body->coordinate[0]] : NULL;
+  ambulo__rigid origin = ambulo__rigid_times(&body->before, &body->after);
+  ambulo__markup_text(text, "  <joint name=\"", c ? c->name : body->name, c ? "" : "_fixed");
+  ambulo__text_append_format(text, "\" type=\"%s\">\n", kind_of(c));
+  ambulo__markup_text(text, "    <parent link=\"", ambulo__export_name(bodies, body->parent),
+                      "\"/>\n");
+  ambulo__markup_text(text, "    <child link=\"", body->name, "\"/>\n");
+  print_origin(&origin, text);
+  if (c) {
+    double axis[3];
+    ambulo__rigid_back(&body->after, body->axis[0], axis);
+    numbers(text, "    <axis xyz=\"", axis, 3, "\"/>\n");
+    print_limit(c, text);
+  }
+  ambulo__text_append(text, "  </joint>\n");
+}
+
+static void print_point(const ambulo__bodies *bodies, const ambulo_point *point,
+                        ambulo__text_buffer *text) {
+  double at[3];
+  ambulo__body_point(bodies, point->link, point->position, at);
+  ambulo__rigid place = ambulo__rigid_shift(at);
+  ambulo__markup_text(text, "  <link name=\"", point->name, "_point\"/>\n");
+  ambulo__markup_text(text, "  <joint name=\"", point->name, "_point_fixed\" type=\"fixed\">\n");
+  ambulo__markup_text(text, "    <parent link=\"",
+                      ambulo__export_name(bodies, bodies->body_of[point->link]), "\"/>\n");
+  ambulo__markup_text(text, "    <child link=\"", point->name, "_point\"/>\n");
+  print_origin(&place, text);
+  ambulo__text_append(text, "  </joint>\n");
+}
+
+void ambulo__export_urdf(const ambulo__bodies *bodies, ambulo__text_buffer *text) {
+  const ambulo_model *model = bodies->model;
+  ambulo__text_append(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" AMBULO__XML_MARK
+                            "export: a URDF, z up, x forward -->\n");
+  ambulo__markup_text(text, "<robot name=\"", model->name, "\">\n");
+  if (bodies->root < 0) ambulo__text_append(text, "  <link name=\"world\"/>\n");
+  for (int i = 0; i < bodies->count; i++) print_link(&bodies->list[i], text);
+  for (int i = 0; i < bodies->count; i++)
+    if (i > 0 || bodies->root < 0) print_urdf_joint(bodies, &bodies->list[i], text);
+  for (int i = 0; i < model->point_count; i++)
+    if (bodies->root < 0 || bodies->body_of[model->points[i].link] >= 0)
+      print_point(bodies, &model->points[i], text);
+  ambulo__text_append(text, "</robot>\n");
 }

@@ -1,21 +1,19 @@
-/* exchange/foot_points.c - heels and toes: by options, else from the solids of links.
+/* exchange/feet.c - heels and toes: by options, else from the solids of links.
  *
  * A foot is a link with all that is fixed to it. Of its solids the lowest points at q = 0 are
  * taken, and of those within 2 cm above the lowest one the rectangle along forward and left: its
  * back edge is the heel, its front edge the toe, all at the lowest height. In a planar body each
  * edge is one point.
  */
+#include "base/numtext.h"
+#include "base/vector.h"
+#include "exchange/body_tree.h"
+#include "model/check.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-
-#include "base/numtext.h"
-#include "base/vector.h"
-#include "exchange/foot_solids.h"
-#include "exchange/formats.h"
-#include "exchange/side.h"
-#include "model/check.h"
 
 enum { MOST_FEET = 8 };
 
@@ -25,18 +23,6 @@ typedef struct feet {
 } feet;
 
 /* ---------------------------------------------------------------------- geometry */
-
-static void set_axes(feet *f) {
-  const ambulo__tree *t = f->tree;
-  for (int i = 0; i < 3; i++) {
-    f->axes[2][i] = -t->gravity[i];
-    f->axes[0][i] = t->forward[i];
-  }
-  (void)ambulo__normalize(f->axes[2]);
-  ambulo__cross(f->axes[2], f->axes[0], f->axes[1]);
-  (void)ambulo__normalize(f->axes[1]);
-  ambulo__cross(f->axes[1], f->axes[2], f->axes[0]);
-}
 
 /* whether some joint leaves the plane of forward and up */
 static int is_spatial(const feet *f) {
@@ -82,10 +68,8 @@ static int put_edge(feet *f, const char *foot, const char *part, int link, doubl
 }
 
 static ambulo__tree_foot *add_foot(ambulo__tree *t, const char *name) {
-  void *room =
-      ambulo__arena_grow(t->arena, t->feet, t->foot_count, &t->foot_capacity, sizeof *t->feet);
-  if (!room) return NULL;
-  t->feet = room;
+  if (!ambulo__arena_grow(t->arena, &t->feet, t->foot_count, &t->foot_capacity, sizeof *t->feet))
+    return NULL;
   t->feet[t->foot_count] = (ambulo__tree_foot){.name = name};
   return &t->feet[t->foot_count++];
 }
@@ -134,13 +118,10 @@ static int parse_place(ambulo__tree *t, const char *option, const char *text, co
   *rest = *end == ':' ? end + 1 : end;
   if (link < 0 && !t->arena->failed) {
     const char **names = ambulo__arena_take(t->arena, (size_t)t->link_count + 1, sizeof *names);
-    char hint[100];
     for (int i = 0; names && i < t->link_count; i++) names[i] = t->links[i].name;
-    const char *near = names ? ambulo__nearest(name, names, (size_t)t->link_count) : NULL;
-    if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.64s'?", near);
-    ambulo__xml_error(t->xml, NULL, AMBULO_E_ARGUMENT, near ? hint : NULL,
-                      "--%s: unknown link (got '%.60s'); expected a link of the body", option,
-                      name);
+    ambulo__xml_error(
+        t->xml, NULL, AMBULO_E_ARGUMENT, ambulo__xml_nearest(t->xml, name, names, t->link_count),
+        "--%s: unknown link (got '%.60s'); expected a link of the body", option, name);
   }
   return link;
 }
@@ -287,7 +268,7 @@ static void note_no_feet(ambulo__tree *t) {
 
 void ambulo__find_feet(ambulo__tree *tree) {
   feet f = {.tree = tree};
-  set_axes(&f);
+  ambulo__tree_axes(tree, f.axes);
   feet_by_hand(tree);
   for (int i = 0; i < tree->options->foot_count && !tree->xml->status; i++) {
     const char *name = NULL, *rest = NULL;
@@ -298,4 +279,87 @@ void ambulo__find_feet(ambulo__tree *tree) {
   if (tree->foot_count == 0) guess_feet(&f);
   if (tree->foot_count == 0) note_no_feet(tree);
   stand(&f);
+}
+
+/* the pose that a solve begins at: defaults of the source, on the ground.
+ *
+ * A default outside its range goes to the nearer end. Then, where a slider that nothing drives goes
+ * up between the world and the feet, its default changes by as much as the lowest point of the feet
+ * is off the ground.
+ */
+
+static ambulo__rigid start_place(const ambulo__tree *tree, int link) {
+  ambulo__rigid place = ambulo__rigid_identity();
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    ambulo__rigid step =
+        ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->coordinate.default_value);
+    if (l->type != AMBULO_FIXED) place = ambulo__rigid_times(&step, &place);
+    place = ambulo__rigid_times(&l->origin, &place);
+  }
+  return place;
+}
+
+static void keep_in_range(ambulo__tree *tree, ambulo__tree_link *link) {
+  ambulo_coordinate *c = &link->coordinate;
+  double inside = fmin(c->range[1], fmax(c->range[0], c->default_value));
+  if (c->default_value == 0.0 || inside == c->default_value) return;
+  ambulo__tree_note(tree, link->node,
+                    "%s stands at %s by default, outside its range: it starts at %s", c->name,
+                    ambulo__number_text(c->default_value).text, ambulo__number_text(inside).text);
+  c->default_value = inside;
+}
+
+/* the slider on the way to a link that goes up and that nothing drives; -1 */
+static int lift_of(const ambulo__tree *tree, int link, const double up[3], double *along) {
+  int found = -1;
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    double axis[3];
+    if (l->type != AMBULO_PRISMATIC || l->coordinate.actuated) continue;
+    ambulo__rigid place = start_place(tree, i);
+    ambulo__rigid_vector(&place, l->axis, axis);
+    double cosine = ambulo__dot(axis, up);
+    if (fabs(cosine) < 0.999) continue;
+    *along = cosine;
+    found = i;
+  }
+  return found;
+}
+
+static void start_pose_stand(ambulo__tree *tree) {
+  double up[3], lowest = INFINITY, along = 1.0;
+  for (int i = 0; i < 3; i++) up[i] = -tree->gravity[i];
+  (void)ambulo__normalize(up);
+  for (int f = 0; f < tree->foot_count; f++) {
+    const ambulo__tree_foot *foot = &tree->feet[f];
+    const int points[4] = {foot->heel[0], foot->heel[1], foot->toe[0], foot->toe[1]};
+    for (int k = 0; k < 4; k++) {
+      double at[3];
+      if (points[k] < 0) continue;
+      const ambulo__tree_point *point = &tree->points[points[k]];
+      ambulo__rigid place = start_place(tree, point->link);
+      ambulo__rigid_point(&place, point->position, at);
+      lowest = fmin(lowest, ambulo__dot(at, up));
+    }
+  }
+  if (!isfinite(lowest) || fabs(lowest) < 1e-6) return;
+  int link = lift_of(tree, tree->points[tree->feet[0].heel[0]].link, up, &along);
+  if (link < 0) return;
+  ambulo_coordinate *c = &tree->links[link].coordinate;
+  double value = c->default_value - lowest / along;
+  if (!(value >= c->range[0] && value <= c->range[1])) return;
+  c->default_value = value;
+  if (fabs(lowest) > 1e-3)
+    ambulo__tree_note(tree, tree->links[link].node,
+                      "%s starts at %s m, %s mm %s than in the source, so that the feet stand on "
+                      "the ground",
+                      c->name, ambulo__three_digits(fabs(value)).text,
+                      ambulo__three_digits(1e3 * fabs(lowest)).text,
+                      lowest < 0.0 ? "higher" : "lower");
+}
+
+void ambulo__find_start(ambulo__tree *tree) {
+  for (int i = 0; i < tree->link_count; i++) keep_in_range(tree, &tree->links[i]);
+  start_pose_stand(tree);
 }

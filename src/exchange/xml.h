@@ -1,4 +1,4 @@
-/* exchange/xml_tree.h - an XML document as a tree that remembers file, line and column.
+/* exchange/xml.h - an XML document as a tree that remembers file, line and column.
  *
  * Elements with their attributes and their text; comments, processing instructions and the
  * document type are passed over. Entities of a document's own are refused, so that none can unfold
@@ -6,11 +6,41 @@
  *
  * Parsing is expat's. A library that was built without it (AMBULO_HAS_EXPAT is not defined) refuses
  * every document with a message that says so. */
-#ifndef AMBULO_EXCHANGE_XML_TREE_H
-#define AMBULO_EXCHANGE_XML_TREE_H
+#ifndef AMBULO_EXCHANGE_XML_H
+#define AMBULO_EXCHANGE_XML_H
 
+#include "base/alloc.h"
 #include "base/diagnostics.h"
-#include "exchange/arena.h"
+
+#include <stdarg.h>
+
+/* ----------------------------------------------------------------------- memory */
+
+/* Memory of one import: cut from chunks, freed together. Failures stick: after the first one every
+ * request yields NULL, and `failed` tells at the end. */
+typedef struct ambulo__arena_chunk ambulo__arena_chunk;
+typedef struct ambulo__arena {
+  ambulo_allocator allocator;
+  ambulo__arena_chunk *chunks;
+  int failed;
+} ambulo__arena;
+
+void ambulo__arena_free(ambulo__arena *arena); /* accepts a zero-filled one */
+
+/* Zero-filled, aligned for doubles and pointers. */
+void *ambulo__arena_take(ambulo__arena *arena, size_t count, size_t size);
+/* Copy of text[0..length) with a NUL. */
+char *ambulo__arena_copy(ambulo__arena *arena, const char *text, size_t length);
+/* printf; "" for want of memory, never NULL. */
+const char *ambulo__arena_print(ambulo__arena *arena, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+const char *ambulo__arena_vprint(ambulo__arena *arena, const char *format, va_list arguments)
+    __attribute__((format(printf, 2, 0)));
+/* Room for one more item in the list whose pointer is at `list`: it stays, or is twice as large and
+ * elsewhere. 0: no memory. */
+int ambulo__arena_grow(ambulo__arena *arena, void *list, int count, int *capacity, size_t size);
+
+/* ------------------------------------------------------------------------- tree */
 
 typedef struct ambulo__xml_node ambulo__xml_node;
 struct ambulo__xml_node {
@@ -35,8 +65,14 @@ ambulo__xml_node *ambulo__xml_load(ambulo__xml *xml, const char *file);
 ambulo__xml_node *ambulo__xml_child(const ambulo__xml_node *node, const char *name);
 ambulo__xml_node *ambulo__xml_next(const ambulo__xml_node *node, const char *name);
 int ambulo__xml_is(const ambulo__xml_node *node, const char *name);
+#define AMBULO__XML_EACH(child, node, name)                                                        \
+  for (const ambulo__xml_node *child = ambulo__xml_child(node, name); child;                       \
+       child = ambulo__xml_next(child, name))
 /* Value of an attribute; NULL without. */
 const char *ambulo__xml_attribute(const ambulo__xml_node *node, const char *name);
+
+/* The attribute name=..., "" without. */
+const char *ambulo__xml_name(const ambulo__xml_node *node);
 
 ambulo__place ambulo__xml_place(const ambulo__xml_node *node);
 /* Records an error at a node. */
@@ -55,6 +91,11 @@ int ambulo__xml_vector(ambulo__xml *xml, const ambulo__xml_node *node, const cha
 /* The same of the text of a child. */
 int ambulo__xml_child_vector(ambulo__xml *xml, const ambulo__xml_node *node, const char *child,
                              int count, int infinite, double *values);
+/* "did you mean 'NAME'?" for the nearest of names[count], in the arena; NULL: none is near. */
+const char *ambulo__xml_nearest(ambulo__xml *xml, const char *word, const char *const *names,
+                                int count);
+/* What stands behind the last '/' of a path. */
+const char *ambulo__xml_last_name(const char *path);
 /* Index of a text among words; -1 after an error at the node with the nearest of them. */
 int ambulo__xml_choice(ambulo__xml *xml, const ambulo__xml_node *node, const char *what,
                        const char *text, const char *const *words, int count);

@@ -1,7 +1,7 @@
 /* XML as a tree: what is kept, where faults are, and what is refused for its size. */
 #include "support/import_case.h"
 
-#include "exchange/xml_tree.h"
+#include "exchange/xml.h"
 
 static void what_is_kept(void **state) {
   skip_without_expat();

@@ -1,6 +1,5 @@
 /* Rates of a frame against differences of its place; quaternions against their rotation. */
-#include "exchange/free_base.h"
-
+#include "exchange/export.h"
 #include "support/random_model.h"
 #include "support/test.h"
 
@@ -82,6 +81,9 @@ static void quaternions(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(quaternions)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rates),
+      cmocka_unit_test(quaternions),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
