@@ -1,4 +1,4 @@
-/* exchange/bodies.c - from links to bodies (bodies.h).
+/* exchange/bodies.c - from links to bodies (export.h).
  *
  * A link's transform (model.h) is its joint, about or along the parent's z, then a constant:
  * T(q) = J(z, q) F. Links are taken in order. What lies between a body and the next one is an open

@@ -1,8 +1,8 @@
 /* exchange/body_tree.c - links, bodies, names and notes of a tree (body_tree.h).
  *
- * Reading order: import.c, body_tree.h, body_tree.c, chain.c, rigid.h; xml_tree.h, xml_parse.c;
- * urdf.c; osim.c, osim_joints.c, osim_functions.c; mjcf.c, mjcf_bodies.c; foot_points.c,
- * mirror_pairs.c; tree_yaml.c.
+ * Reading order: import.c, body_tree.h, body_tree.c, rigid.h, xml.h; urdf.c; osim.c, osim_joints.c,
+ * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, foot_solids.c, mirror_pairs.c; tree_yaml.c.
+ * The way back: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
  */
 #include "exchange/body_tree.h"
 
@@ -274,7 +274,9 @@ double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, doubl
   return fallback;
 }
 
-/* joints of several coordinates as links, one coordinate each (body_tree.h).
+/* ----------------------------------------------------------------------- chains */
+
+/* Joints of several coordinates as links, one coordinate each.
  *
  * Placements in between are put together. What comes after the last joint is taken into it where
  * that can be: with C = Trans(c) R_C,

@@ -56,6 +56,11 @@ static void print_motion(const ambulo__bodies *bodies, const ambulo__source *sou
   }
 }
 
+/* columns of a load are called force_NAME_v., force_NAME_p., torque_NAME_., behind this */
+static const char *prefix_of(const ambulo__export_load *load) {
+  return load->kind == AMBULO__LOAD_DEVICE ? "" : "ground_";
+}
+
 /* on a body that moves */
 static int acts(const ambulo__export_load *load) {
   return load->body >= 0;
@@ -69,7 +74,7 @@ static void print_forces(const ambulo__bodies *bodies, const double *time,
   for (int i = 0; i < loads->count; i++) {
     const ambulo__export_load *load = &loads->list[i];
     for (int column = 0; column < 9 && acts(load); column++)
-      ambulo__text_append_format(text, "\t%s%s_%s_%s%c", ambulo__load_prefix(load),
+      ambulo__text_append_format(text, "\t%s%s_%s_%s%c", prefix_of(load),
                                  column < 6 ? "force" : "torque", load->name,
                                  column < 3   ? "v"
                                  : column < 6 ? "p"
@@ -101,7 +106,7 @@ static void element(ambulo__text_buffer *text, const char *tag, const char *befo
 static void identifier(ambulo__text_buffer *text, const char *tag, const ambulo__export_load *load,
                        const char *what, const char *after) {
   char before[32];
-  (void)snprintf(before, sizeof before, "%s%s_", ambulo__load_prefix(load), what);
+  (void)snprintf(before, sizeof before, "%s%s_", prefix_of(load), what);
   element(text, tag, before, load->name, after);
 }
 
@@ -194,7 +199,7 @@ static ambulo_status check_asked(const job *j) {
 
 /* --------------------------------------------------------------------- what is lost */
 
-static void tell_gravity(const job *j) {
+static void warn_gravity(const job *j) {
   double g[3];
   ambulo__rigid_vector(&j->bodies.world, j->model->gravity, g);
   if (g[0] == 0.0 && g[1] == 0.0 && g[2] == -9.81) return;
@@ -203,7 +208,7 @@ static void tell_gravity(const job *j) {
                   g[2]);
 }
 
-static void tell_limits(const job *j) {
+static void warn_limits(const job *j) {
   int uneven = 0;
   const char *first = "";
   for (int i = j->model->coordinate_count - 1; i >= 0; i--) {
@@ -281,8 +286,8 @@ static ambulo_status write_format(job *j) {
   case AMBULO_EXPORT_URDF:
     status = ambulo__bodies_single(j->model, j->options->free_root, j->allocator, &j->bodies);
     if (status) return status;
-    tell_gravity(j);
-    tell_limits(j);
+    warn_gravity(j);
+    warn_limits(j);
     ambulo__export_urdf(&j->bodies, &j->text);
     return write_single(j);
   case AMBULO_EXPORT_NPZ:

@@ -9,9 +9,7 @@
  * where J_i turns about or slides along axis[i] of the joint's frame: sliders first, then hinges
  * through one point. Links without mass, points or branches are parts of the joint of the next one.
  * Frames of bodies are those of the links they are called after, but for `single`. Ground: the
- * other program's world, whose axes the model's are turned to. SI units and radians.
- *
- * Reading order: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c. */
+ * other program's world, whose axes the model's are turned to. SI units and radians. */
 #ifndef AMBULO_EXCHANGE_EXPORT_H
 #define AMBULO_EXCHANGE_EXPORT_H
 
@@ -159,7 +157,7 @@ typedef struct ambulo__export_load {
   char name[AMBULO__LOAD_NAME];     /* foot, LOAD_POINT of a hand, patch, DEVICE_BODY */
   int index, part;                  /* of the source's loads, or of its kind; end, 0 or 1 */
   int link;                         /* that it acts on; -1: a device at a joint */
-  int body;                         /* of bodies.h; -1: the ground, which nothing moves */
+  int body;                         /* of export.h; -1: the ground, which nothing moves */
   int column[AMBULO__LOAD_COLUMNS]; /* of the table: force, point, moment; effort */
 } ambulo__export_load;
 
@@ -182,9 +180,6 @@ ambulo_status ambulo__loads_create(const ambulo__bodies *bodies, const ambulo_pr
                                    ambulo__source *source, ambulo_diagnostics *diagnostics,
                                    ambulo__loads *loads);
 void ambulo__loads_free(ambulo__loads *loads); /* accepts a zero-filled one */
-
-/* Columns of a load are called force_NAME_v., force_NAME_p., torque_NAME_., behind this. */
-const char *ambulo__load_prefix(const ambulo__export_load *load);
 
 /* The body of an end of a device, 0: the one that its coordinate moves, or its first point's. */
 int ambulo__device_end(const ambulo__bodies *bodies, const ambulo_device *device, int end);

@@ -253,16 +253,16 @@ static int is_end(const ambulo__tree *t, int link) {
 
 /* how to say what the source does not, with the links that may be feet */
 static void note_no_feet(ambulo__tree *t) {
-  char ends[400] = "";
+  char ends[240] = "";
   size_t used = 0;
   for (int i = 0; i < t->link_count && used + 80 < sizeof ends; i++)
     if (is_end(t, i))
       used += (size_t)snprintf(ends + used, sizeof ends - used, "%s%.64s", used ? ", " : "",
                                t->links[i].name);
   ambulo__tree_note(t, NULL,
-                    "no feet: no link is named as a foot and has geometry; name one by --foot "
-                    "left=LINK (geometry), or by --heel left=LINK:X,Y,Z and --toe; links at the "
-                    "ends of the body: %s",
+                    "no feet: no link is named like a foot and has geometry; name them by --foot "
+                    "left=LINK, or by --heel and --toe left=LINK:X,Y,Z; links at the ends of the "
+                    "body: %s",
                     ends);
 }
 

@@ -31,10 +31,6 @@ typedef struct builder {
 
 static const char *const axes[] = {".x", ".y", ".z"};
 
-const char *ambulo__load_prefix(const ambulo__export_load *load) {
-  return load->kind == AMBULO__LOAD_DEVICE ? "" : "ground_";
-}
-
 int ambulo__has_loads(const ambulo_problem *problem) {
   return problem && ambulo__holds_patches(&problem->definition);
 }
@@ -56,9 +52,9 @@ static ambulo__export_load *add(builder *b, ambulo__load_kind kind, int index, i
   return load;
 }
 
-static void tell_missing(const builder *b, const char *kind, const char *name) {
+static void warn_missing(const builder *b, const char *kind, const char *name) {
   ambulo__warning(b->diagnostics, ambulo__nowhere, NULL,
-                  "the motion says nothing of %s '%s': it is left out", kind, name);
+                  "the motion has no columns of %s '%s': it is left out", kind, name);
 }
 
 static void name_load(ambulo__export_load *load, const char *name, const char *behind) {
@@ -79,7 +75,7 @@ static void list_patches(builder *b) {
     const ambulo_patch *patch = &b->model->patches[i];
     if (!ambulo__patch_is_used(&b->problem->definition, i)) continue;
     if (column(b, "moment.", patch->name, ".x") < 0) {
-      tell_missing(b, "the patch", patch->name);
+      warn_missing(b, "the patch", patch->name);
       continue;
     }
     int link = b->model->points[patch->point].link;
@@ -98,7 +94,7 @@ static void list_device(builder *b, int index) {
   int at = column(b, "device.", device->name, ".torque");
   if (at < 0) at = column(b, "device.", device->name, ".force");
   if (at < 0) {
-    tell_missing(b, "the device", device->name);
+    warn_missing(b, "the device", device->name);
     return;
   }
   for (int end = 0; end < 2; end++) {
@@ -111,7 +107,7 @@ static void list_device(builder *b, int index) {
 }
 
 /* what a problem would have to be named for */
-static void tell_unknown(const builder *b) {
+static void warn_unknown(const builder *b) {
   const ambulo__motion *table = b->source->table;
   for (int c = 0; c < table->columns; c++) {
     const char *name = table->names[c];
@@ -138,7 +134,7 @@ static ambulo_status list_loads(builder *b) {
   if (!b->loads->list) return AMBULO_E_MEMORY;
   list_source(b);
   if (!d) {
-    tell_unknown(b);
+    warn_unknown(b);
     return AMBULO_OK;
   }
   list_patches(b);
@@ -239,7 +235,7 @@ static ambulo_status fill(builder *b) {
 }
 
 /* what of the root wrench all loads leave over, about the origin: the largest of all rows */
-static void tell_rest(const builder *b) {
+static void note_rest(const builder *b) {
   const ambulo__loads *l = b->loads;
   double weight = ambulo__model_weight(b->model), worst[2] = {0.0, 0.0};
   if (!ambulo__has_loads(b->problem) || b->source->loads == 0) return;
@@ -276,7 +272,7 @@ ambulo_status ambulo__loads_create(const ambulo__bodies *bodies, const ambulo_pr
                .diagnostics = diagnostics};
   ambulo_status status = list_loads(&b);
   if (!status) status = fill(&b);
-  if (!status) tell_rest(&b);
+  if (!status) note_rest(&b);
   if (status)
     ambulo__loads_free(&made);
   else

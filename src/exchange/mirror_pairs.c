@@ -1,7 +1,7 @@
 /* exchange/mirror_pairs.c - which coordinate takes whose place in the mirror image.
  *
- * Partners are found by name (side.h); their sign by the axes at q = 0: with H the reflection of
- * left, a_partner = sign H a for sliders and -sign H a for hinges (docs/model-format.md). Where
+ * Partners are found by name (body_tree.h); their sign by the axes at q = 0: with H the reflection
+ * of left, a_partner = sign H a for sliders and -sign H a for hinges (docs/model-format.md). Where
  * neither sign fits, the body is not symmetric there and nothing is said.
  */
 #include "exchange/body_tree.h"

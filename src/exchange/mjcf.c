@@ -104,7 +104,7 @@ static void include_files(ambulo__xml *xml, ambulo__xml_node *root, const char *
  * others a number, in rad or m, all in the order of the joints. With R the turn, of a free joint
  * against the body's own orientation in the file and in axes along forward, left and up,
  *
- *     free   R = Rot_y(tilt) Rot_x(list) Rot_z(rotation)     (chain.c)
+ *     free   R = Rot_y(tilt) Rot_x(list) Rot_z(rotation)     (body_tree.c)
  *     ball   R = Rot_x(x) Rot_y(y) Rot_z(z)
  */
 
@@ -274,7 +274,7 @@ static void set_total_mass(ambulo__mjcf *m) {
   }
 }
 
-static void tell_leftovers(ambulo__mjcf *m) {
+static void note_leftovers(ambulo__mjcf *m) {
   static const char *const sets[] = {"tendon", "equality", "deformable", "extension"};
   for (int i = 0; i < 4; i++) {
     int count = 0;
@@ -323,5 +323,5 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
   if (tree->xml->status || tree->arena->failed) return;
   set_total_mass(&m);
   read_actuators(&m);
-  tell_leftovers(&m);
+  note_leftovers(&m);
 }

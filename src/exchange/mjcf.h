@@ -27,10 +27,10 @@ typedef struct ambulo__mjcf {
   int key_count, key_used;
 } ambulo__mjcf;
 
-/* <include>s are replaced by what the files hold, <frame>s stay (mjcf_include.c). */
+/* <include>s are replaced by what the files hold, <frame>s stay (mjcf.c). */
 void ambulo__mjcf_include(ambulo__xml *xml, ambulo__xml_node *root, const char *path);
 
-/* ------------------------------------------------ attributes (mjcf_attributes.c) */
+/* ------------------------------------------------ attributes (mjcf_geoms.c) */
 
 /* An attribute of an element: its own, else that of its default class, `around` for an element
  * that names none (NULL: the top one), and of the classes around that. NULL without. */
@@ -50,7 +50,7 @@ ambulo__rigid ambulo__mjcf_place(const ambulo__mjcf *m, const ambulo__xml_node *
 
 void ambulo__mjcf_bodies(ambulo__mjcf *m);
 
-/* ------------------------------------------------------ start pose (mjcf_key.c) */
+/* ------------------------------------------------------ start pose (mjcf.c) */
 
 /* The first keyframe, and its next numbers for the joint that is met next; NULL without. */
 void ambulo__mjcf_key(ambulo__mjcf *m);
@@ -67,7 +67,7 @@ void ambulo__mjcf_geom(ambulo__mjcf *m, const ambulo__xml_node *geom, const char
                        const ambulo__rigid *frame, int massive, ambulo__part *body,
                        ambulo__tree_solid *solid, int *has_solid);
 
-/* --------------------------------------------------- actuators (mjcf_actuators.c) */
+/* --------------------------------------------------- actuators (mjcf.c) */
 
 void ambulo__mjcf_actuators(ambulo__mjcf *m);
 /* Whether an actuator names the joint. */

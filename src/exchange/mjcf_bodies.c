@@ -8,7 +8,7 @@
  *   hinge   turn by q - ref about the axis
  *   slide   by q - ref along it
  *   ball    three hinges about x, y, z
- *   free    three sliders and three hinges, from where the body stands (chain.c)
+ *   free    three sliders and three hinges, from where the body stands (body_tree.c)
  */
 #include <math.h>
 #include <stdlib.h>

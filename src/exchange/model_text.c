@@ -120,8 +120,8 @@ static void print_frame(const ambulo__bodies *bodies, int body, const char *name
 static void print_row(const char *row, const char *coordinate, const double axis[3],
                       ambulo__text_buffer *text) {
   open_named(text, 6, "TransformAxis", row);
-  ambulo__text_append(text, "\t\t\t\t\t\t\t<coordinates>");
-  if (coordinate) ambulo__markup_text(text, "", coordinate, "</coordinates>\n");
+  ambulo__markup_text(text, "\t\t\t\t\t\t\t<coordinates>", coordinate ? coordinate : "",
+                      "</coordinates>\n");
   ambulo__markup_element(text, 7, "axis", axis, 3);
   ambulo__text_append(text, coordinate ? "\t\t\t\t\t\t\t<LinearFunction name=\"function\">\n"
                                          "\t\t\t\t\t\t\t\t<coefficients>1 0</coefficients>\n"

@@ -257,13 +257,11 @@ static void walk(ambulo__osim *o) {
     for (int k = o->body_count - 1; k > 0; k--)
       if (parent_of(o, k) == i && !o->bodies[k].reached) stack[top++] = k;
   }
-  for (int i = 1; i < o->body_count; i++) {
-    if (o->bodies[i].reached) continue;
-    ambulo__xml_error(
-        o->xml, o->bodies[i].node, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
-        "body '%.60s' hangs on itself through its parents; expected a tree", o->bodies[i].name);
-    return;
-  }
+  for (int i = 1; i < o->body_count && !o->xml->status; i++)
+    if (!o->bodies[i].reached)
+      ambulo__xml_error(
+          o->xml, o->bodies[i].node, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
+          "body '%.60s' hangs on itself through its parents; expected a tree", o->bodies[i].name);
 }
 
 void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {

@@ -33,7 +33,7 @@ typedef struct ambulo__osim {
   int joint_count, joint_capacity;
 } ambulo__osim;
 
-/* ------------------------------------------------ bodies and frames (osim_bodies.c) */
+/* ------------------------------------------------ bodies and frames (osim.c) */
 
 /* Both lists; an error for what is no tree of bodies. */
 void ambulo__osim_collect(ambulo__osim *o);

@@ -119,7 +119,7 @@ static void read_actuator(ambulo__osim *o, const ambulo__xml_node *node) {
 }
 
 /* "80 Thelen2003Muscle, 3 BushingForce": each kind once, where it is first met */
-static void tell_kinds(ambulo__osim *o, const ambulo__xml_node *first, const char *what,
+static void note_kinds(ambulo__osim *o, const ambulo__xml_node *first, const char *what,
                        const char *known) {
   for (const ambulo__xml_node *n = first; n; n = n->next) {
     int count = 0, before = 0;
@@ -151,8 +151,8 @@ void ambulo__osim_forces(ambulo__osim *o) {
   if (!is_short(o, forces) || !is_short(o, constraints)) return;
   for (const ambulo__xml_node *n = forces; n; n = n->next)
     if (ambulo__xml_is(n, "CoordinateActuator")) read_actuator(o, n);
-  tell_kinds(o, forces, "muscles and other forces", "CoordinateActuator");
-  tell_kinds(o, constraints, "constraints: loops that they close stay open",
+  note_kinds(o, forces, "muscles and other forces", "CoordinateActuator");
+  note_kinds(o, constraints, "constraints: loops that they close stay open",
              "CoordinateCouplerConstraint");
 }
 

@@ -9,10 +9,11 @@
  *   revolute, continuous, prismatic   one coordinate, named after the joint
  *   fixed                             none
  *   planar                            two sliders across the axis, then a hinge about it
- *   floating                          three sliders and three hinges (chain.c)
+ *   floating                          three sliders and three hinges (body_tree.c)
  *   with <mimic>                      held where it is when the joint it follows is at its pose
  */
 #include "base/numtext.h"
+#include "base/vector.h"
 #include "exchange/body_tree.h"
 #include "model/check.h"
 
@@ -56,36 +57,27 @@ static void read_limits(ambulo__tree *tree, const ambulo__xml_node *joint, int r
     (void)ambulo__xml_vector(xml, limit, "upper", 1, &range[1]);
     ambulo__tree_range(tree, link, range, 1.0, limit);
   }
-  if (ambulo__xml_vector(xml, limit, "velocity", 1, &most) && most > 0.0) {
-    c->speed[0] = -most;
-    c->speed[1] = most;
-  }
-  most = 0.0;
-  if (ambulo__xml_vector(xml, limit, "effort", 1, &most) && most > 0.0) {
-    c->torque[0] = -most;
-    c->torque[1] = most;
+  static const char *const names[] = {"velocity", "effort"};
+  double *const limits[] = {c->speed, c->torque};
+  for (int i = 0; i < 2; i++) {
+    if (!ambulo__xml_vector(xml, limit, names[i], 1, &most) || !(most > 0.0)) continue;
+    limits[i][0] = -most;
+    limits[i][1] = most;
   }
 }
 
-/* two directions across the axis, the first as near to x as can be */
-static void across(const double axis[3], double first[3], double second[3]) {
-  int k = fabs(axis[0]) < 0.9 ? 0 : 1;
-  for (int i = 0; i < 3; i++) first[i] = (i == k) - axis[k] * axis[i];
-  (void)ambulo__normalize(first);
-  for (int i = 0; i < 3; i++)
-    second[i] = axis[(i + 1) % 3] * first[(i + 2) % 3] - axis[(i + 2) % 3] * first[(i + 1) % 3];
-}
-
+/* two sliders across the axis, the first as near to x as can be, and a hinge about it */
 static void add_planar(ambulo__chain *chain, const double axis[3], const char *name) {
-  double first[3], second[3];
-  ambulo__arena *arena = chain->tree->arena;
-  across(axis, first, second);
-  (void)ambulo__chain_joint(chain, AMBULO_PRISMATIC, first,
-                            ambulo__arena_print(arena, "%.50s_first", name));
-  (void)ambulo__chain_joint(chain, AMBULO_PRISMATIC, second,
-                            ambulo__arena_print(arena, "%.50s_second", name));
-  (void)ambulo__chain_joint(chain, AMBULO_REVOLUTE, axis,
-                            ambulo__arena_print(arena, "%.50s_turn", name));
+  static const char *const parts[] = {"first", "second", "turn"};
+  double axes[3][3];
+  int k = fabs(axis[0]) < 0.9 ? 0 : 1;
+  for (int i = 0; i < 3; i++) axes[0][i] = (i == k) - axis[k] * axis[i];
+  (void)ambulo__normalize(axes[0]);
+  ambulo__cross(axis, axes[0], axes[1]);
+  memcpy(axes[2], axis, sizeof axes[2]);
+  for (int i = 0; i < 3; i++)
+    (void)ambulo__chain_joint(chain, i < 2 ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, axes[i],
+                              ambulo__arena_print(chain->tree->arena, "%.50s_%s", name, parts[i]));
 }
 
 /* the joint beside this one that has a name; NULL */
@@ -122,12 +114,6 @@ static double follow(ambulo__tree *tree, const ambulo__xml_node *joint,
   return value;
 }
 
-static int read_axis(ambulo__tree *tree, const ambulo__xml_node *joint, double axis[3]) {
-  const ambulo__xml_node *node = ambulo__xml_child(joint, "axis");
-  (void)ambulo__xml_vector(tree->xml, node, "xyz", 3, axis);
-  return ambulo__tree_axis(tree, axis, ambulo__xml_name(joint), node);
-}
-
 enum { REVOLUTE, CONTINUOUS, PRISMATIC, FIXED, FLOATING, PLANAR, TYPES };
 
 static int one_coordinate(ambulo__chain *chain, int type, const ambulo__xml_node *joint,
@@ -152,14 +138,17 @@ static int add_joint(ambulo__tree *tree, int parent, const ambulo__xml_node *joi
                      const char *child) {
   static const char *const types[TYPES] = {"revolute", "continuous", "prismatic",
                                            "fixed",    "floating",   "planar"};
-  const char *word = ambulo__xml_attribute(joint, "type");
+  const char *word = ambulo__xml_attribute(joint, "type"), *name = ambulo__xml_name(joint);
   int type = ambulo__xml_choice(tree->xml, joint, "type of joint", word ? word : "", types, TYPES);
   double axis[3] = {1, 0, 0};
-  if (type < 0 || (type != FIXED && type != FLOATING && !read_axis(tree, joint, axis))) return -1;
+  const ambulo__xml_node *along = ambulo__xml_child(joint, "axis");
+  (void)ambulo__xml_vector(tree->xml, along, "xyz", 3, axis);
+  if (type < 0 ||
+      (type != FIXED && type != FLOATING && !ambulo__tree_axis(tree, axis, name, along)))
+    return -1;
   ambulo__chain chain = ambulo__chain_begin(tree, parent, joint);
   ambulo__rigid origin = origin_of(tree->xml, joint);
   ambulo__chain_place(&chain, &origin);
-  const char *name = ambulo__xml_name(joint);
   if (type == FLOATING) ambulo__chain_free(&chain, name);
   if (type == PLANAR) add_planar(&chain, axis, name);
   if (type <= PRISMATIC && !one_coordinate(&chain, type, joint, axis)) return -1;
@@ -205,29 +194,28 @@ static void read_inertial(ambulo__tree *tree, int link, const ambulo__xml_node *
 }
 
 static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node *node) {
+  static const char *const names[] = {"box", "sphere", "cylinder", "capsule"};
+  static const ambulo__shape shapes[] = {AMBULO__BOX, AMBULO__SPHERE, AMBULO__CYLINDER,
+                                         AMBULO__CAPSULE};
   const ambulo__xml_node *geometry = ambulo__xml_child(node, "geometry");
   const ambulo__xml_node *shape = geometry ? geometry->first : NULL;
-  ambulo__tree_solid solid = {.link = link, .at = origin_of(tree->xml, node)};
-  double length = 0.0;
+  ambulo__tree_solid solid = {.link = link, .shape = AMBULO__MESH};
   if (!shape) return;
-  if (ambulo__xml_is(shape, "box")) {
-    solid.shape = AMBULO__BOX;
-    if (!ambulo__xml_vector(tree->xml, shape, "size", 3, solid.size)) return;
-    for (int i = 0; i < 3; i++) solid.size[i] *= 0.5;
-  } else if (ambulo__xml_is(shape, "sphere")) {
-    solid.shape = AMBULO__SPHERE;
-    if (!ambulo__xml_vector(tree->xml, shape, "radius", 1, solid.size)) return;
-  } else if (ambulo__xml_is(shape, "cylinder") || ambulo__xml_is(shape, "capsule")) {
-    solid.shape = ambulo__xml_is(shape, "capsule") ? AMBULO__CAPSULE : AMBULO__CYLINDER;
-    if (!ambulo__xml_vector(tree->xml, shape, "radius", 1, solid.size) ||
-        !ambulo__xml_vector(tree->xml, shape, "length", 1, &length))
-      return;
-    solid.size[1] = 0.5 * length;
-  } else {
-    solid.shape = AMBULO__MESH;
+  solid.at = origin_of(tree->xml, node);
+  for (int i = 0; i < 4; i++)
+    if (ambulo__xml_is(shape, names[i])) solid.shape = shapes[i];
+  if (solid.shape == AMBULO__MESH) {
     solid.mesh =
         ambulo__mesh_named(tree->arena, tree->path, ambulo__xml_attribute(shape, "filename"));
     if (solid.mesh) (void)ambulo__xml_vector(tree->xml, shape, "scale", 3, solid.mesh->scale);
+  } else if (solid.shape == AMBULO__BOX) {
+    if (!ambulo__xml_vector(tree->xml, shape, "size", 3, solid.size)) return;
+    for (int i = 0; i < 3; i++) solid.size[i] *= 0.5;
+  } else {
+    if (!ambulo__xml_vector(tree->xml, shape, "radius", 1, solid.size)) return;
+    int has_length = ambulo__xml_vector(tree->xml, shape, "length", 1, &solid.size[1]);
+    if (!has_length && solid.shape != AMBULO__SPHERE) return;
+    solid.size[1] *= 0.5;
   }
   ambulo__tree_add_solid(tree, &solid);
 }
@@ -351,27 +339,14 @@ static int root_of(urdf *u, const ambulo__xml_node *robot) {
   return root;
 }
 
-/* ---------------------------------------------------------------------- walking */
-
 static int begin_root(urdf *u, int i) {
   ambulo__tree *t = u->tree;
   ambulo__chain chain = ambulo__chain_begin(t, -1, u->links[i].node);
-  ambulo_import_root asked = t->options->root;
-  int is_free = asked == AMBULO_ROOT_FREE ||
-                (asked == AMBULO_ROOT_AS_IS && strcmp(u->links[i].name, "world") != 0);
-  if (is_free) ambulo__chain_free(&chain, "base");
-  t->root_free = is_free;
+  int is_world = strcmp(u->links[i].name, "world") == 0;
+  t->root_free =
+      t->options->root == AMBULO_ROOT_FREE || (t->options->root == AMBULO_ROOT_AS_IS && !is_world);
+  if (t->root_free) ambulo__chain_free(&chain, "base");
   return ambulo__chain_end(&chain, u->links[i].name);
-}
-
-static void report_cycle(urdf *u) {
-  for (int i = 0; i < u->count; i++) {
-    if (u->links[i].reached) continue;
-    ambulo__xml_error(
-        u->xml, u->links[i].joint, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
-        "link '%.60s' hangs on itself through its parents; expected a tree", u->links[i].name);
-    return;
-  }
 }
 
 /* From the root, each subtree whole; the stack holds links whose parents are in the tree. */
@@ -392,17 +367,18 @@ static void walk(urdf *u, int root) {
     for (int k = u->count - 1; k >= 0; k--)
       if (u->links[k].joint && u->links[k].parent == i && !u->links[k].reached) stack[top++] = k;
   }
-  report_cycle(u);
+  for (int i = 0; i < u->count && !u->xml->status; i++)
+    if (!u->links[i].reached)
+      ambulo__xml_error(
+          u->xml, u->links[i].joint, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
+          "link '%.60s' hangs on itself through its parents; expected a tree", u->links[i].name);
 }
 
-static int is_xacro(ambulo__xml *xml, const ambulo__xml_node *root) {
-  for (const ambulo__xml_node *n = root->first; n; n = n->next) {
-    if (strncmp(n->name, "xacro:", 6) != 0) continue;
-    ambulo__xml_error(xml, n, AMBULO_E_SCHEMA, "expand it first: xacro FILE.xacro > robot.urdf",
-                      "the file holds macros of xacro (got <%.40s>); expected a URDF", n->name);
-    return 1;
-  }
-  return 0;
+static void refuse_xacro(ambulo__xml *xml, const ambulo__xml_node *root) {
+  for (const ambulo__xml_node *n = root->first; n && !xml->status; n = n->next)
+    if (strncmp(n->name, "xacro:", 6) == 0)
+      ambulo__xml_error(xml, n, AMBULO_E_SCHEMA, "expand it first: xacro FILE.xacro > robot.urdf",
+                        "the file holds macros of xacro (got <%.40s>); expected a URDF", n->name);
 }
 
 void ambulo__read_urdf(ambulo__tree *tree, const ambulo__xml_node *root) {
@@ -413,7 +389,8 @@ void ambulo__read_urdf(ambulo__tree *tree, const ambulo__xml_node *root) {
   tree->gravity[0] = tree->gravity[1] = 0.0;
   tree->gravity[2] = -9.81;
   tree->up = 'z';
-  if (is_xacro(tree->xml, root)) return;
+  refuse_xacro(tree->xml, root);
+  if (tree->xml->status) return;
   collect_links(&u, root);
   collect_joints(&u, root);
   if (tree->xml->status || tree->arena->failed) return;

@@ -17,7 +17,7 @@
  * z_cj being 1 where a curve is off by one standard deviation. What is minimized is the cost
  * D + ridge |u|^2 / parameters.
  *
- * Reading order: fit.h, fit_file.c, fit_conditions.c, fit_values.c (u to numbers of the problem),
+ * Files in order: fit_file.c, fit_conditions.c, fit_values.c (u to numbers of the problem),
  * fit_solves.c (trials as cases of a batch), fit_residual.c, fit_search.c, fit_run.c, fit_report.c.
  */
 #ifndef AMBULO_STUDY_FIT_H

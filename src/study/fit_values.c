@@ -283,8 +283,6 @@ static ambulo_status add(rewrite *w, const ambulo__yaml_node *node, const char *
   return AMBULO_OK;
 }
 
-/* --------------------------------------------------------------- what is changed */
-
 static ambulo_status add_numbers(rewrite *w, ambulo__yaml *document, const double *u) {
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < w->fit->parameters; i++) {
@@ -354,15 +352,21 @@ static ambulo_status add_names(rewrite *w, const ambulo__yaml_node *node, const 
   return status;
 }
 
-/* --------------------------------------------------------------------- writing */
-
 static int by_place(const void *left, const void *right) {
   const place *a = left, *b = right;
   return a->at < b->at ? -1 : a->at > b->at;
 }
 
-static void write_all(rewrite *w, ambulo__text_buffer *text) {
+static ambulo_status rewrite_text(rewrite *w, const double *u, ambulo__text_buffer *text) {
+  ambulo__yaml *document = NULL;
   size_t from = 0;
+  ambulo_status status = ambulo__yaml_load_text(w->text, w->length, w->fit->problem,
+                                                &w->fit->allocator, w->diagnostics, &document);
+  if (!status) status = add_numbers(w, document, u);
+  if (!status) status = add_names(w, ambulo__yaml_root(document), "model");
+  if (!status) status = add_names(w, ambulo__yaml_root(document), "reference");
+  ambulo__yaml_free(document);
+  if (status) return status;
   qsort(w->places, (size_t)w->count, sizeof *w->places, by_place);
   for (int i = 0; i < w->count; i++) {
     ambulo__text_append_bytes(text, w->text + from, w->places[i].at - from);
@@ -370,25 +374,7 @@ static void write_all(rewrite *w, ambulo__text_buffer *text) {
     from = w->places[i].at + w->places[i].length;
   }
   ambulo__text_append_bytes(text, w->text + from, w->length - from);
-}
-
-static ambulo_status rewrite_text(rewrite *w, const double *u, ambulo__text_buffer *text) {
-  ambulo__yaml *document = NULL;
-  ambulo_status status = ambulo__yaml_load_text(w->text, w->length, w->fit->problem,
-                                                &w->fit->allocator, w->diagnostics, &document);
-  if (!status) status = add_numbers(w, document, u);
-  if (!status) {
-    const ambulo__yaml_node *root = ambulo__yaml_root(document);
-    const ambulo__yaml_node *model = ambulo__yaml_get(root, "model");
-    if (model) status = add_name(w, model);
-    if (!status) status = add_names(w, root, "reference");
-  }
-  if (!status) {
-    write_all(w, text);
-    status = ambulo__text_status(text);
-  }
-  ambulo__yaml_free(document);
-  return status;
+  return ambulo__text_status(text);
 }
 
 ambulo_status ambulo__fitted_problem(const ambulo_fit *fit, const double *u, const char *directory,

@@ -113,7 +113,8 @@ static void what_is_wrong(void **state) {
        "t.xml:4:1: error[E_SCHEMA]: unknown type of joint (got 'screw'); expected one of free, "
        "ball, slide, hinge"},
       {HINGE("axis='0 0 0'"), AMBULO_E_MODEL, "the axis of joint 'j' has no direction"},
-      {HINGE("range='10 -10'"), AMBULO_E_MODEL, "range of joint 'j' contradicts itself"},
+      {HINGE("range='10 -10'"), AMBULO_E_MODEL,
+       "the range of 'j' contradicts itself (got 10 to -10)"},
       {HINGE("pos='0 0'"), AMBULO_E_SCHEMA, "pos of <joint> has 2 numbers; expected 3"},
       {HINGE("limited='maybe'"), AMBULO_E_SCHEMA, "unknown limited (got 'maybe')"},
       {MODEL("<body><joint/>\n<geom type='mesh' mesh='m'/></body>"), AMBULO_E_MODEL,

@@ -73,7 +73,7 @@ static void custom_joints_that_are_wrong(void **state) {
   import_bad(state, CUSTOM("<TransformAxis name='rotation4'/>"), AMBULO_E_SCHEMA,
              "t.xml:8:1: error[E_SCHEMA]: unknown transform axis (got 'rotation4')");
   import_bad(state, CUSTOM("<TransformAxis name='rotation1'><axis>0 0 0</axis></TransformAxis>"),
-             AMBULO_E_MODEL, "an axis of joint 'c' has no direction");
+             AMBULO_E_MODEL, "the axis of joint 'c' has no direction");
   import_bad(state,
              CUSTOM("<TransformAxis name='rotation1'><coordinates>r</coordinates></TransformAxis>"),
              AMBULO_E_MODEL, "unknown coordinate of joint 'c' (got 'r')");

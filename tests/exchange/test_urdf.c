@@ -123,7 +123,7 @@ static void joints_that_are_wrong(void **state) {
   import_bad(state, ARM(JOINT("j", "revolute", "a", "b", "<axis xyz='0 x 1'/>")), AMBULO_E_SCHEMA,
              "xyz of <axis> is not a number (got 'x'); expected a finite number");
   import_bad(state, ARM(JOINT("j", "revolute", "a", "b", "<limit lower='1' upper='-1'/>")),
-             AMBULO_E_MODEL, "limits of joint 'j' contradict each other (got 1 to -1)");
+             AMBULO_E_MODEL, "the range of 'j' contradicts itself (got 1 to -1)");
   import_bad(state, ARM(JOINT("j", "revolute", "a", "b", "<mimic multiplier='2'/>")),
              AMBULO_E_SCHEMA, "<mimic> of joint 'j' names no joint");
   import_bad(state, ROBOT("<xacro:macro name='leg'/>"), AMBULO_E_SCHEMA,

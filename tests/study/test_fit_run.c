@@ -183,26 +183,21 @@ static void fit_json_says_it(void **state) {
   assert_close(number_at(document, "parameters.price.change"), 1.5, 1e-12);
   static const char *const times[] = {"before", "after"};
   for (int i = 0; i < 2; i++) {
-    char path[80];
-    (void)snprintf(path, sizeof path, "conditions.one.distance.%s", times[i]);
-    double one = number_at(document, path);
-    (void)snprintf(path, sizeof path, "conditions.three.distance.%s", times[i]);
-    double three = number_at(document, path);
-    (void)snprintf(path, sizeof path, "distance.held_out_%s", times[i]);
-    assert_close(number_at(document, path), (one + 3.0 * three) / 4.0, 1e-12);
+    char path[3][80];
+    (void)snprintf(path[0], sizeof path[0], "conditions.one.distance.%s", times[i]);
+    (void)snprintf(path[1], sizeof path[1], "conditions.three.distance.%s", times[i]);
+    (void)snprintf(path[2], sizeof path[2], "distance.held_out_%s", times[i]);
+    double one = number_at(document, path[0]), three = number_at(document, path[1]);
+    assert_close(number_at(document, path[2]), (one + 3.0 * three) / 4.0, 1e-12);
     assert_true(fabs(one - three) > 1e-3);
   }
   ambulo__yaml_free(document);
   ambulo_fit_free(fit);
 }
 
-typedef struct stopper {
-  int after; /* solves */
-} stopper;
-
+/* user: after how many solves */
 static int stop_after(void *user, const ambulo_fit_progress *p) {
-  const stopper *s = user;
-  return p->solves >= s->after;
+  return p->solves >= *(const int *)user;
 }
 
 static void same_file(void **state, const char *a, const char *b) {
@@ -226,10 +221,9 @@ static void neither_workers_nor_stops_matter(void **state) {
   same_file(state, "one/fitted.yaml", "three/fitted.yaml");
   ending = AMBULO_FIT_INTERRUPTED;
   for (int after = 2; ending == AMBULO_FIT_INTERRUPTED; after += 11, stops++) {
-    stopper s = {after};
     o = usual(2);
     o.progress = stop_after;
-    o.user = &s;
+    o.user = &after;
     assert_int_equal(run(fit, scratch_path(state, "bits"), &o, &end, &ending, NULL), AMBULO_OK);
     assert_true(stops < 100);
   }
@@ -249,10 +243,10 @@ static void stopped_before_anything(void **state) {
   ambulo_fit *fit = truth_fit(state, "");
   ambulo_fit_options o = usual(1);
   ambulo_fit_ending ending = AMBULO_FIT_NOT_RUN;
-  stopper s = {0};
+  int after = 0;
   char *report = NULL;
   o.progress = stop_after;
-  o.user = &s;
+  o.user = &after;
   assert_int_equal(run(fit, scratch_path(state, "out"), &o, NULL, &ending, &report), AMBULO_OK);
   assert_int_equal(ending, AMBULO_FIT_INTERRUPTED);
   assert_null(report);
@@ -307,17 +301,15 @@ static void arguments(void **state) {
   ambulo_fit_free(fit);
 }
 
-/* Folders of fits: made, continued, refused. */
-
 #define TEXT FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE
 
 /* the folder is made or refused; nothing is solved */
 static ambulo_status prepare(const ambulo_fit *fit, const char *directory, int force,
                              ambulo_diagnostics *list) {
   ambulo_fit_options o = usual(1);
-  stopper s = {0};
+  int after = 0;
   o.progress = stop_after;
-  o.user = &s;
+  o.user = &after;
   o.force = force;
   ambulo__diagnostics_clear(list);
   return ambulo_fit_run(fit, directory, &o, NULL, list, NULL, NULL);
