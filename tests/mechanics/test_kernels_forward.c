@@ -35,13 +35,13 @@ static void equals_the_reference(void **state) {
 static void instruction_sets_agree(void **state) {
   (void)state;
   static kernel_case c;
-  const ambulo__kernels *scalar = ambulo__kernels_by_name("scalar");
-  assert_non_null(scalar);
+  const ambulo__kernels *one_lane = ambulo__kernels_by_name("scalar");
+  assert_non_null(one_lane);
   for (int number = 0; number < case_count; number++) {
     case_open(&c, number);
     int n = c.rows * AMBULO__LANES, where = 0;
     double *want = lane_array((size_t)c.rows);
-    case_forward(&c, scalar);
+    case_forward(&c, one_lane);
     memcpy(want, c.out, (size_t)n * sizeof *want);
     for (int i = 1; i < isa_count; i++) {
       const ambulo__kernels *kernels = ambulo__kernels_by_name(isa_names[i]);

@@ -18,7 +18,6 @@
 
 #include "ambulo/mechanics.h"
 #include "mechanics/lagrangian.h"
-#include "mechanics/lagrangian_state.h"
 #include "model/model.h"
 
 #include <math.h>

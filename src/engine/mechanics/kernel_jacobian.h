@@ -26,7 +26,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 
-#include "mechanics/kernel_subtree.h"
+#include "mechanics/kernel_world.h"
 
 /* A step of its own keeps its constants in registers; inlined together they would not fit. */
 #define AMBULO__STEP static __attribute__((noinline))

@@ -37,7 +37,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
 
-#include "mechanics/kernel_local_virtual.h"
+#include "mechanics/kernel_local_contacts.h"
 
 /* s += Omega'(r, b); s holds the adjoints of w, alpha and a. */
 AMBULO__INLINE local_state moved_adjoint_any(local_state s, wide3 w, wide3 r, wide3 b) {

@@ -29,7 +29,6 @@
 #include "ambulo/mechanics.h"
 #include "base/sized.h"
 #include "mechanics/lagrangian.h"
-#include "mechanics/lagrangian_state.h"
 #include "model/model.h"
 
 /* Scratch: link states, then tau [coordinates], then point positions [points][3]. */

@@ -12,10 +12,10 @@
  * that axes stay aligned along the chain; Trans_z may be done before the turn, and is where that
  * lets more axes share an origin. Numbers that stem from cos(pi/2) are rounded to zero.
  */
+#include "mechanics/plan_layout.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "mechanics/plan_build.h"
 
 static const double snap = 1e-15;
 
@@ -285,4 +285,36 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->by_qdd);
   ambulo__free(&memory, plan->roots);
   ambulo__free(&memory, plan);
+}
+
+/* the sizes of a plan. */
+
+int ambulo__plan_coordinates(const ambulo__plan *plan) {
+  return plan->coordinates;
+}
+
+int ambulo__plan_points(const ambulo__plan *plan) {
+  return plan->points;
+}
+
+int ambulo__plan_contacts(const ambulo__plan *plan) {
+  return plan->contacts;
+}
+
+int ambulo__plan_ground_entries(const ambulo__plan *plan) {
+  return plan->contacts > 0 ? 3 + 4 * plan->contacts : 0;
+}
+
+int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {
+  return plan->joints[coordinate].torque_row == AMBULO__ROW_VANISHES;
+}
+
+size_t ambulo__plan_take_wrench(ambulo__plan *plan) {
+  plan->taken_at = plan->scratch;
+  plan->scratch += (size_t)12 * AMBULO__LANES;
+  return plan->taken_at;
+}
+
+size_t ambulo__plan_scratch(const ambulo__plan *plan) {
+  return plan->scratch;
 }

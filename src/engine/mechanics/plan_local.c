@@ -4,7 +4,7 @@
  */
 #include <string.h>
 
-#include "mechanics/plan_build.h"
+#include "mechanics/plan_layout.h"
 
 /* The axis along which v lies, 3 if none; of a vector of zeros, axis 2. */
 static int along(const double v[3]) {
@@ -14,7 +14,7 @@ static int along(const double v[3]) {
   return 3;
 }
 
-/* base 1 + first u u^T + second w w^T, see plan_mass.c, in the frame's axes. */
+/* base 1 + first u u^T + second w w^T, see plan_inertia.c, in the frame's axes. */
 static void set_inertia(ambulo__local_step *step, const ambulo__body *body) {
   static const int place[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   double u[3] = {0}, w[3] = {0};

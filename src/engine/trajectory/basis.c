@@ -4,7 +4,7 @@
  * Reading order: basis.h, bspline.c (central_difference.c, hermite.c), lane_map.h, transfer.c for
  * another grid; motion_fit.h, butterworth.h for given motions.
  */
-#include "trajectory/basis_methods.h"
+#include "trajectory/basis.h"
 
 #include <float.h>
 #include <math.h>

@@ -22,7 +22,7 @@
  *     (a). = (t. - u_j.) m_j + (t - u_j) m_j. + (u_j+k+1. - t.) m_j+1 + (u_j+k+1 - t) m_j+1.,
  *     (b). = k (m_j. - m_j+1.)                                                        (c)
  */
-#include "trajectory/basis_methods.h"
+#include "trajectory/basis.h"
 
 static int control_points(int degree, int intervals) {
   return intervals + degree;

@@ -19,7 +19,7 @@
  *    consecutive breakpoints of either basis the integrand is a polynomial of degree
  *    <= 14, and 8 Gauss points integrate it exactly. Reproduces the source when the target
  *    contains it. */
-#include "trajectory/basis_methods.h"
+#include "trajectory/basis.h"
 #include "trajectory/quadrature.h"
 #include "base/lapack.h"
 
