@@ -49,7 +49,7 @@ static void faults_are_placed(void **state) {
   expect_refusal(WALKER TIME "objective: [{term: torque_squared, scale: {knee: 1}}]\n",
                  AMBULO_E_SCHEMA, "p.yaml:5:44: error[E_SCHEMA]: unknown key 'knee'");
   expect_refusal(WALKER TIME "objective: [{term: torque_squared, offset: 3}]\n", AMBULO_E_SCHEMA,
-                 "'offset' is not a mapping");
+                 "got '3'; expected a mapping");
   expect_refusal(WALKER TIME "objective: [{term: torque_squared, offset: {pelvis_ty: weight}}]\n",
                  AMBULO_E_SCHEMA, "p.yaml:5:56: error");
   expect_refusal(WALKER TIME

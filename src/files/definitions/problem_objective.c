@@ -9,39 +9,52 @@
 
 enum { MOST_TERMS = 64 };
 
-static double *coordinate_array(ambulo__problem_reader *reader, double value) {
+/* what stands for coordinate i; `otherwise` after an error */
+typedef double coordinate_reader(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                 int i, double otherwise);
+
+/* [coordinates]: of a mapping of their names; `rest` for those not named, or all without a node */
+static double *read_coordinates(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                double rest, coordinate_reader *read) {
   int count = ambulo_model_coordinate_count(reader->model);
   double *array = ambulo__reader_alloc(reader, (size_t)count, sizeof *array);
-  for (int i = 0; array && i < count; i++) array[i] = value;
+  for (int i = 0; array && i < count; i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    array[i] = value ? read(reader, value, i, rest) : rest;
+  }
+  ambulo__yaml_close(node);
   return array;
 }
 
-/* a number for all coordinates, or a mapping with `default` for those it does not name; a pair of
- * prices (read_prices) is 1 here */
-static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                          int may_be_pairs) {
-  if (!node) return coordinate_array(reader, 1.0);
-  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
-    return coordinate_array(reader, ambulo__yaml_number_in(node, 0.0, 1e12, 1.0));
-  }
-  double rest = ambulo__yaml_number_in(ambulo__yaml_get(node, "default"), 0.0, 1e12, 1.0);
-  double *scale = coordinate_array(reader, rest);
-  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo__yaml_node *value =
-        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    int is_pair = ambulo__yaml_is(value, AMBULO__YAML_SEQUENCE);
-    if (is_pair && !may_be_pairs)
-      (void)ambulo__yaml_error(
-          value, AMBULO_E_SCHEMA,
-          "prices by direction are those of torque_power with strength: limits",
-          "got a sequence of %d; expected a number", ambulo__yaml_items(value));
-    if (is_pair)
-      scale[i] = 1.0;
-    else
-      scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
-  }
-  ambulo__yaml_close(node);
-  return scale;
+static double read_weight(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i,
+                          double otherwise) {
+  (void)reader, (void)i;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE))
+    return ambulo__yaml_number_in(node, 0.0, 1e12, otherwise);
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA,
+                           "prices by direction are those of torque_power with strength: limits",
+                           "got a sequence of %d; expected a number", ambulo__yaml_items(node));
+  return otherwise;
+}
+
+/* a pair of prices (read_prices) is 1 here */
+static double read_priced_weight(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                 int i, double otherwise) {
+  if (ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE)) return 1.0;
+  return read_weight(reader, node, i, otherwise);
+}
+
+static double read_stiffness(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i,
+                             double otherwise) {
+  (void)reader, (void)i;
+  return ambulo__yaml_number_in(node, 1e-6, 1e12, otherwise);
+}
+
+static double read_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i,
+                         double otherwise) {
+  (void)otherwise;
+  return ambulo__read_coordinate_value(reader, node, i);
 }
 
 /* mg with the sign that the coordinate's generalized force has when it carries the body */
@@ -63,28 +76,22 @@ static double body_weight_on(const ambulo__problem_reader *reader, const ambulo_
   return (vertical > 0.0 ? 1.0 : -1.0) * model->mass * sqrt(g);
 }
 
-static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  if (!node) return NULL;
-  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
-    (void)ambulo__yaml_error(
-        node, AMBULO_E_SCHEMA, NULL,
-        "'offset' is not a mapping; expected coordinate: number or body_weight");
-    return NULL;
-  }
-  double *offset = coordinate_array(reader, 0.0);
-  for (int i = 0; offset && i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo__yaml_node *value =
-        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    if (!value) continue;
-    const char *text = ambulo__yaml_text(value);
-    if (strcmp(text, "body_weight") == 0) {
-      offset[i] = body_weight_on(reader, value, i) / reader->keys.heavier; /* the subject's own */
-    } else if (text[0]) {
-      offset[i] = ambulo__yaml_number(value, 0.0);
-    }
-  }
-  ambulo__yaml_close(node);
-  return offset;
+static double read_offset(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i,
+                          double otherwise) {
+  const char *text = ambulo__yaml_text(node);
+  if (strcmp(text, "body_weight") == 0) /* the subject's own */
+    return body_weight_on(reader, node, i) / reader->keys.heavier;
+  return text[0] ? ambulo__yaml_number(node, otherwise) : otherwise;
+}
+
+/* a number for all coordinates, or a mapping with `default` for those it does not name */
+static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          int may_be_pairs) {
+  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  double rest =
+      ambulo__yaml_number_in(is_mapping ? ambulo__yaml_get(node, "default") : node, 0.0, 1e12, 1.0);
+  return read_coordinates(reader, is_mapping ? node : NULL, rest,
+                          may_be_pairs ? read_priced_weight : read_weight);
 }
 
 /* values per coordinate for a mapping {coordinate: [..]}; those not named stay zero */
@@ -140,57 +147,12 @@ static void read_strength(ambulo__problem_reader *reader, const ambulo__yaml_nod
   }
 }
 
-/* stiffness of tendons by coordinate; those not named have none */
-static double *read_tendon(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  if (!node) return NULL;
-  double *tendon = coordinate_array(reader, 0.0);
-  for (int i = 0; tendon && i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo__yaml_node *value =
-        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    tendon[i] = ambulo__yaml_number_in(value, 1e-6, 1e12, 0.0);
-  }
-  ambulo__yaml_close(node);
-  return tendon;
-}
-
 /* `points: [from, to]`, names of the model's points */
-static void read_line(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+static void read_line(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                       ambulo_term *term) {
-  for (int end = 0; end < 2; end++) {
-    const ambulo__yaml_node *item = ambulo__yaml_item(node, end);
-    const char *name = ambulo__yaml_name(item);
-    if (!name[0]) continue;
-    term->point[end] = ambulo_model_find_point(reader->model, name);
-    if (term->point[end] < 0)
-      (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM,
-                               "'ambulo info' of the model lists its points",
-                               "unknown point (got '%s'); expected a point of the model", name);
-  }
-}
-
-/* `angles` of posture, in the file's unit; 0 for those not named */
-static double *read_posture(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  if (!node) return NULL;
-  double *angles = coordinate_array(reader, 0.0);
-  for (int i = 0; angles && i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo__yaml_node *value =
-        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    if (value) angles[i] = ambulo__read_coordinate_value(reader, value, i);
-  }
-  ambulo__yaml_close(node);
-  return angles;
-}
-
-/* `scale` of posture names what it holds; everything else stays free */
-static double *read_posture_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  double *scale = coordinate_array(reader, 0.0);
-  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo__yaml_node *value =
-        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, 0.0);
-  }
-  ambulo__yaml_close(node);
-  return scale;
+  for (int end = 0; end < 2; end++)
+    term->point[end] =
+        ambulo__read_name_of(reader, ambulo__yaml_item(node, end), AMBULO__NAMED_POINT);
 }
 
 /* of devices by name, as read_scale of coordinates */
@@ -209,6 +171,12 @@ static double *read_device_scale(ambulo__problem_reader *reader, const ambulo__y
   return scale;
 }
 
+/* 0 for those not named; NULL without a node */
+static double *read_given(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          coordinate_reader *read) {
+  return node ? read_coordinates(reader, node, 0.0, read) : NULL;
+}
+
 /* what the kind of a term has besides weight and scale */
 static void read_members(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo_term *term) {
@@ -224,12 +192,12 @@ static void read_members(ambulo__problem_reader *reader, const ambulo__yaml_node
                   term);
   }
   if (has & AMBULO__TERM_OFFSET)
-    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+    term->offset = read_given(reader, ambulo__yaml_get(node, "offset"), read_offset);
   if (has & AMBULO__TERM_REST)
-    term->offset = read_posture(reader, ambulo__yaml_get(node, "angles"));
+    term->offset = read_given(reader, ambulo__yaml_get(node, "angles"), read_angle);
   if (has & AMBULO__TERM_LINE) read_line(reader, ambulo__yaml_require(node, "points"), term);
   if (has & AMBULO__TERM_TENDON)
-    term->tendon = read_tendon(reader, ambulo__yaml_get(node, "tendon"));
+    term->tendon = read_given(reader, ambulo__yaml_get(node, "tendon"), read_stiffness);
   if (has & AMBULO__TERM_DEVICES)
     term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
   if (has & AMBULO__TERM_HEIGHT)
@@ -266,7 +234,7 @@ static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *n
   if (ambulo__term_has(term, AMBULO__TERM_SCALE))
     scale = read_scale(reader, ambulo__yaml_get(node, "scale"), priced);
   if (ambulo__term_has(term, AMBULO__TERM_REST))
-    scale = read_posture_scale(reader, ambulo__yaml_require(node, "scale"));
+    scale = read_coordinates(reader, ambulo__yaml_require(node, "scale"), 0.0, read_weight);
   term->scale = scale;
   read_members(reader, node, term);
   if (ambulo__term_has(term, AMBULO__TERM_REFERENCE) && scale) {
