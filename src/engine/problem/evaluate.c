@@ -53,10 +53,6 @@ static void compute_channels(ambulo_workspace *workspace, const double *x) {
                             workspace->scratch, workspace->device_scratch);
 }
 
-static double *slope_at(ambulo_workspace *workspace, int node, int channel) {
-  return &workspace->term_slope[ambulo__lane_index(node, workspace->channel_count, channel)];
-}
-
 static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
   const ambulo_problem *p = workspace->problem;
   double sum = 0.0;
@@ -66,16 +62,15 @@ static double user_term_value(ambulo_workspace *workspace, const ambulo_term *te
 }
 
 /* one coordinate of a term, block by block; the padding has weight zero */
-static double residual_sum(ambulo_workspace *workspace, const ambulo_term *term, double least,
-                           int i) {
+static double coordinate_value(const ambulo_workspace *workspace, const ambulo_term *term,
+                               double least, int i, double factor, double *slopes) {
   const ambulo_problem *p = workspace->problem;
   double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
   double sum[AMBULO__LANES] = {0.0}, total = 0.0;
-  const double factor = term->weight * ambulo__term_scale(term, i);
   int channel = ambulo__term_channel(term, &p->channels, i);
   for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
     const size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
-    double *to = workspace->term_slope + at;
+    double *to = slopes + at;
     ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
     ambulo__term_shapes(term, least, u, value, slope);
     for (int l = 0; l < AMBULO__LANES; l++) {
@@ -87,15 +82,18 @@ static double residual_sum(ambulo_workspace *workspace, const ambulo_term *term,
   return total;
 }
 
-static double residual_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+static double simple_term_value(const ambulo_workspace *workspace, const ambulo_term *term,
+                                double factor, double *slopes) {
   double sum = 0.0, least = ambulo__term_least(term);
   for (int i = 0; i < workspace->problem->coordinates; i++) {
-    if (ambulo__term_scale(term, i) != 0.0) sum += residual_sum(workspace, term, least, i);
+    double scale = ambulo__term_scale(term, i);
+    if (scale != 0.0) sum += coordinate_value(workspace, term, least, i, factor * scale, slopes);
   }
   return sum;
 }
 
-static double composite_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+static double composite_term_value(const ambulo_workspace *workspace, const ambulo_term *term,
+                                   double factor, double *slopes) {
   const ambulo_problem *p = workspace->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
   double sum = 0.0, least = ambulo__term_least(term);
@@ -107,9 +105,10 @@ static double composite_term_value(ambulo_workspace *workspace, const ambulo_ter
       ambulo__term_form(term, &context, k, j, &form);
       if (form.count == 0) continue;
       ambulo__residual phi = ambulo__term_residual_from(term, least, form.u);
-      double slope = term->weight * quadrature * phi.slope;
+      double slope = factor * quadrature * phi.slope;
       for (int c = 0; c < form.count; c++)
-        *slope_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
+        slopes[ambulo__lane_index(k + form.ahead[c], workspace->channel_count, form.channel[c])] +=
+            slope * form.slope[c];
       node += phi.value;
     }
     sum += quadrature * node;
@@ -117,10 +116,11 @@ static double composite_term_value(ambulo_workspace *workspace, const ambulo_ter
   return sum;
 }
 
-static double term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+double ambulo__term_value(ambulo_workspace *workspace, const ambulo_term *term, double factor,
+                          double *slopes) {
   if (ambulo__is_user_term(term)) return user_term_value(workspace, term);
-  if (ambulo__term_is_simple(term)) return residual_term_value(workspace, term);
-  return composite_term_value(workspace, term);
+  if (ambulo__term_is_simple(term)) return simple_term_value(workspace, term, factor, slopes);
+  return composite_term_value(workspace, term, factor, slopes);
 }
 
 /* (13) w_k times each term, summed over the nodes; on the way the slopes of all but those of the
@@ -132,7 +132,7 @@ static double evaluate_terms(ambulo_workspace *workspace) {
   memset(workspace->term_slope, 0, lanes * AMBULO__LANES * sizeof *workspace->term_slope);
   for (int t = 0; t < definition->term_count; t++) {
     const ambulo_term *term = &definition->terms[t];
-    double value = term_value(workspace, term);
+    double value = ambulo__term_value(workspace, term, term->weight, workspace->term_slope);
     workspace->term_value[t] = term->weight * value;
     total += workspace->term_value[t];
   }

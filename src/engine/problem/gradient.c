@@ -21,28 +21,6 @@ static double *weight_at(ambulo_workspace *workspace, int node, int channel) {
   return &workspace->weight[ambulo__lane_index(node, workspace->channel_count, channel)];
 }
 
-/* one coordinate of a term, block by block; the padding has weight zero */
-static void add_residuals(ambulo_workspace *workspace, const ambulo_term *term, int i,
-                          double factor) {
-  const ambulo_problem *p = workspace->problem;
-  double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
-  int channel = ambulo__term_channel(term, &p->channels, i);
-  for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
-    size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
-    double *w = workspace->weight + at;
-    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
-    ambulo__term_shapes(term, 0.0, u, value, slope);
-    for (int l = 0; l < AMBULO__LANES; l++) w[l] += factor * p->quadrature[k + l] * slope[l];
-  }
-}
-
-static void add_residual_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
-  for (int i = 0; i < workspace->problem->coordinates; i++) {
-    double scale = ambulo__term_scale(term, i);
-    if (scale != 0.0) add_residuals(workspace, term, i, factor * scale);
-  }
-}
-
 static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
   const ambulo_problem *p = workspace->problem;
   int count = workspace->channel_count;
@@ -54,34 +32,14 @@ static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, 
   }
 }
 
-static void add_composite_term(ambulo_workspace *workspace, const ambulo_term *term,
-                               double factor) {
-  const ambulo_problem *p = workspace->problem;
-  ambulo__term_context context = ambulo__term_context_of(workspace);
-  for (int k = 0; k < p->nodes; k++) {
-    double weight = factor * ambulo__term_quadrature(p, term, k);
-    int count = ambulo__term_forms(term, &context, k);
-    for (int j = 0; j < count; j++) {
-      ambulo__form form;
-      ambulo__term_form(term, &context, k, j, &form);
-      double slope = weight * ambulo__term_residual_from(term, 0.0, form.u).slope;
-      for (int c = 0; c < form.count; c++)
-        *weight_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
-    }
-  }
-}
-
 void ambulo__adjoint_term(ambulo_workspace *workspace, int t, double objective_weight) {
   const ambulo_term *term = &workspace->problem->definition.terms[t];
   double factor = objective_weight * term->weight;
   if (factor == 0.0) return;
-  if (ambulo__is_user_term(term)) {
+  if (ambulo__is_user_term(term))
     add_user_term(workspace, term, factor);
-  } else if (ambulo__term_is_simple(term)) {
-    add_residual_term(workspace, term, factor);
-  } else {
-    add_composite_term(workspace, term, factor);
-  }
+  else
+    (void)ambulo__term_value(workspace, term, factor, workspace->weight);
 }
 
 static void add_user_row(ambulo_workspace *workspace, int r, double lambda) {

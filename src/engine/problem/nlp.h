@@ -145,6 +145,11 @@ ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x);
 /* Also the channel Jacobians. */
 ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x);
 
+/* The value of a term at the channels, without its weight; but for those of the caller, dvalue/dy
+ * times `factor` is added to `slopes`, [blocks][channels][8]. */
+double ambulo__term_value(ambulo_workspace *workspace, const ambulo_term *term, double factor,
+                          double *slopes);
+
 /* After ambulo__evaluate: gradient of objective_weight * J + sum_r weights[r] c_r. E_NUMERIC if an
  * entry is not finite (workspace->fault). */
 ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
