@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 typedef struct chain {
   int parent, joints;

@@ -6,7 +6,7 @@
  */
 #include "exchange/body_tree.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "model/check.h"
 
 #include <math.h>

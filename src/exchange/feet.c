@@ -6,7 +6,7 @@
  * edge is one point.
  */
 #include "base/numtext.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "exchange/body_tree.h"
 #include "model/check.h"
 

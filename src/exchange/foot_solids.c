@@ -7,7 +7,7 @@
 #include "exchange/body_tree.h"
 
 #include "base/numtext.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
 

@@ -10,7 +10,7 @@
  */
 #include "exchange/export.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "mechanics/pose.h"
 #include "people/ground_load.h"

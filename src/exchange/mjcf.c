@@ -7,7 +7,7 @@
 #include "exchange/mjcf.h"
 
 #include "base/numtext.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <stdlib.h>

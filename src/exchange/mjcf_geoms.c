@@ -6,7 +6,7 @@
  * angle, three turns in the compiler's order (small letters: about turned axes, capitals: about
  * fixed ones), the x and y axes, or the z axis with the smallest turn that takes it there.
  */
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "exchange/mjcf.h"
 
 #include <math.h>

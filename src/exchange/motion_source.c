@@ -1,7 +1,7 @@
 /* exchange/motion_source.c - see export.h. */
 #include "exchange/export.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "formats/motion_file.h"
 #include "formats/paths.h"
 #include "mechanics/pose.h"

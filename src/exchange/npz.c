@@ -1,7 +1,7 @@
 /* exchange/npz.c - see export.h. */
 #include "exchange/export.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <stdio.h>
 #include <string.h>

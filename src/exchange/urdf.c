@@ -13,7 +13,7 @@
  *   with <mimic>                      held where it is when the joint it follows is at its pose
  */
 #include "base/numtext.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "exchange/body_tree.h"
 #include "model/check.h"
 

@@ -1,6 +1,6 @@
 /* people/ground_load.c - reading forces on the feet (ground_load.h). */
 #include "people/ground_load.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "people/motion_fit.h"
 #include "mechanics/pose.h"
 #include "model/model.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "people/ground_load.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "mechanics/pose.h"
 #include "model/model.h"
 

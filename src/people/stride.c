@@ -5,7 +5,7 @@
  */
 #include "people/stride.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "contact/loading.h"
 

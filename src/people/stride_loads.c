@@ -12,7 +12,7 @@
  *
  *     M_m = 2 (M_i . l) l - M_i + (travel f + rise n) x grf_m
  */
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "people/stride.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* people/stride_measures.c - work of the joints, path of the centre of mass (economy.h). */
 #include "people/stride_measures.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/collision.h"
 #include "contact/effector.h"
 #include "mechanics/pose.h"

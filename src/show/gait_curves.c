@@ -4,7 +4,7 @@
  * A panel shows one coordinate or a left-right pair. Shown are hip flexion, knee and ankle if
  * the model has them, then the coordinates with the largest torques; behind them, for a walk, the
  * curves of people. */
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "model/neutral_pose.h"
 #include "show/gait_chart.h"

@@ -3,7 +3,7 @@
 
 #include "ambulo/tools/compare.h"
 #include "ambulo/tools/report.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/flight.h"
 #include "model/neutral_pose.h"
 #include "people/stride.h"

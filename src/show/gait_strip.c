@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/contact_frame.h"
 #include "show/gait_surroundings.h"
 #include "show/gait_svg.h"

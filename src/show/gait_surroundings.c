@@ -6,7 +6,7 @@
  */
 #include "show/gait_surroundings.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/collision.h"
 #include "contact/foot_outline.h"
 #include "contact/hold_times.h"

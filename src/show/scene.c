@@ -5,7 +5,7 @@
  */
 #include "show/scene.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "show/gait_svg.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 const char *ambulo__scene_side(ambulo__side side) {
   static const char *const words[] = {"middle", "left", "right"};

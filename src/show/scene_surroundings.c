@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/collision.h"
 #include "contact/contact_frame.h"
 #include "contact/effector.h"

@@ -1,7 +1,7 @@
 /* show/skeleton.c - lines of a stick figure (skeleton.h). */
 #include "show/skeleton.h"
 #include "model/neutral_pose.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

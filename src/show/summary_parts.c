@@ -4,7 +4,7 @@
 #include "show/summary_json.h"
 
 #include "ambulo/tools/tools.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "people/stride.h"
 #include "people/stride_measures.h"

@@ -5,7 +5,7 @@
 #endif
 #include "study/batch_machine.h"
 #include "ambulo/tools/batch.h"
-#include "base/free_memory.h"
+#include "base/machine.h"
 
 #include <unistd.h>
 #ifdef __linux__

@@ -10,7 +10,7 @@
  */
 #include "study/batch_supervisor.h"
 #include "base/sized.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "formats/file_steps.h"
 #include "study/case_path.h"
 #include "study/batch_clean.h"

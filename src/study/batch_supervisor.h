@@ -2,7 +2,7 @@
 #ifndef AMBULO_STUDY_BATCH_SUPERVISOR_H
 #define AMBULO_STUDY_BATCH_SUPERVISOR_H
 
-#include "base/clock.h"
+#include "base/machine.h"
 #include "study/batch_lock.h"
 #include "study/case_record.h"
 #include "study/sweep.h"

@@ -4,7 +4,7 @@
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
  * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
 #include "formats/read_file.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "study/case_path.h"
 #include "study/batch_supervisor.h"
 

@@ -6,7 +6,7 @@
  * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml`
  * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
  * valley that zero does not find. */
-#include "base/clock.h"
+#include "base/machine.h"
 #include "base/sized.h"
 #include "formats/atomic_file.h"
 #include "formats/file_steps.h"

@@ -10,7 +10,7 @@
  * Solutions that a fit follows are set against those that zero finds by the objective of the inner
  * problem, never by the distance to people: what comes closest to them among several valleys would
  * be a fit of the starts. */
-#include "base/clock.h"
+#include "base/machine.h"
 #include "formats/paths.h"
 #include "study/case_path.h"
 #include "study/case_record.h"

@@ -6,7 +6,7 @@
  * are intact are read, and only the first that is not is run. Neither the number of processes nor
  * an interruption changes what is asked for. */
 #include "base/sized.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "study/batch_listing.h"
 #include "study/case_record.h"
 #include "study/batch_supervisor.h"

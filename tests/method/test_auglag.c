@@ -1,7 +1,7 @@
 /* NLopt's AUGLAG runs the solve: its multipliers are those that the engine works with, it iterates
  * itself, and without its update nothing is solved. */
 #define _GNU_SOURCE /* dlsym's RTLD_NEXT */
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/auglag.h"
 #include "support/engine_fixture.h"
 #include "support/arm.h"

@@ -1,5 +1,5 @@
 /* The model step: feasible to first order, downhill, and stationary for its active set. */
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "support/engine_fixture.h"
 
 static void step_keeps_the_equalities_and_descends(void **state) {

@@ -1,7 +1,7 @@
 /* Predicted memory against what is taken, counted by an allocator; absurd sizes are refused. */
 #include "solver/solve_memory.h"
 #include "ambulo/tools/load.h"
-#include "base/free_memory.h"
+#include "base/machine.h"
 #include "problem/nlp.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"

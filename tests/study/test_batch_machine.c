@@ -1,7 +1,7 @@
 /* How many processes: as asked, and no more than memory allows. */
 #include "study/batch_machine.h"
 #include "ambulo/tools/batch.h"
-#include "base/free_memory.h"
+#include "base/machine.h"
 #include "support/test.h"
 
 static void as_asked_or_as_the_machine_has(void **state) {

@@ -3,7 +3,7 @@
  * and do what their comments say; energy and forces are those of mechanics. Looked at on 2001
  * times. */
 #include "ambulo/tools/tools.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "support/test.h"
 
 enum { TIMES = 2001, AXES = 3, PATCHES = 3 };

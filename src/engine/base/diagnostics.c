@@ -1,11 +1,46 @@
-/* base/diagnostics.c - the list of messages about an input. */
+/* base/diagnostics.c - statuses, and the list of messages about an input. */
 #include "base/diagnostics.h"
+
+#include "ambulo/ambulo.h"
 #include "base/alloc.h"
 
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ------------------------------------------------------------------- statuses */
+
+static const struct {
+  const char *name, *text;
+  int exit_code;
+} statuses[] = {
+#define STATUS_ROW(id, name, exit_code, text) [id] = {name, text, exit_code},
+    AMBULO_STATUS_LIST(STATUS_ROW)
+#undef STATUS_ROW
+};
+
+static int is_status(ambulo_status status) {
+  return (unsigned)status < sizeof statuses / sizeof *statuses;
+}
+
+const char *ambulo_status_name(ambulo_status status) {
+  return is_status(status) ? statuses[status].name : "E_UNKNOWN";
+}
+
+const char *ambulo_status_text(ambulo_status status) {
+  return is_status(status) ? statuses[status].text : "not a status of this library";
+}
+
+int ambulo_status_exit_code(ambulo_status status) {
+  return is_status(status) ? statuses[status].exit_code : statuses[AMBULO_E_INTERNAL].exit_code;
+}
+
+const char *ambulo_version(void) {
+  return AMBULO_VERSION_STRING;
+}
+
+/* -------------------------------------------------------------------- messages */
 
 const ambulo__place ambulo__nowhere = {NULL, 0, 0, NULL};
 

@@ -1,6 +1,6 @@
 /* contact/apart.c - see apart.h. */
 #include "contact/apart.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 

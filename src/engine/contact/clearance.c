@@ -29,7 +29,7 @@
 #include "contact/step_edge.h"
 #include "contact/swing.h"
 #include "model/neutral_pose.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 

@@ -1,7 +1,6 @@
 /* contact/collision_check.c - capsules that keep clear, obstacles, places to reach: every number.
  */
-#include "base/instant.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/collision.h"
 #include "model/neutral_pose.h"
 

@@ -8,7 +8,7 @@
  * (Halton, Numer Math 2:84-90, 1960).
  */
 #include "contact/collision.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/segments.h"
 #include "mechanics/pose.h"
 #include "model/capsule_points.h"

@@ -16,8 +16,7 @@
  *
  * and without a tolerance by one equation each, the same form = 0.
  */
-#include "base/instant.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/bounded.h"
 #include "contact/collision.h"
 

@@ -6,7 +6,7 @@
  *     p_n                the same with s' = min(1, 2 s) up, max(0, 2 s - 1) down
  */
 #include "contact/contact_frame.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "model/model.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
  * longer than a stride.
  */
 #include "contact/contact_image.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "model/model.h"
 

@@ -41,8 +41,7 @@
  * which nodes do not follow and which rings.
  */
 #include "contact/contact_load.h"
-#include "base/vector.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "contact/loading.h"
 #include "contact/stance.h"

@@ -2,7 +2,7 @@
 #include "contact/device_path.h"
 
 #include "base/lanes.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

@@ -11,7 +11,7 @@
  */
 #include "contact/devices.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/device_path.h"
 
 #include <math.h>

@@ -16,7 +16,7 @@
  */
 #include "contact/gait.h"
 #include "base/sized.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>

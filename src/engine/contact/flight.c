@@ -20,7 +20,7 @@
  * Planar models have the rows along f and n, and that about l.
  */
 #include "contact/flight.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/bounded.h"
 #include "contact/effector.h"
 #include "contact/loading.h"

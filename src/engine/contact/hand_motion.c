@@ -2,7 +2,7 @@
 #include "contact/hand_motion.h"
 
 #include "base/lanes.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "contact/devices.h"
 #include "contact/holds.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/hold_times.h"
 #include "model/model.h"
 

@@ -7,8 +7,7 @@
  */
 #include "contact/hold_times.h"
 
-#include "base/instant.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 int ambulo__hold_rises(const ambulo_hold *hold) {
   return hold->from > AMBULO__INSTANT;

@@ -5,7 +5,7 @@
  */
 #include "contact/holds.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/hand_motion.h"
 #include "model/model.h"
 

@@ -5,7 +5,7 @@
  * repeated a period earlier and later, of the mirror foot when the ends are mirrored.
  */
 #include "contact/loading.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include "contact/effector.h"
 

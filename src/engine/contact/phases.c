@@ -9,7 +9,7 @@
  * walks between 1.87 and 1.90 m/s found no solution.
  */
 #include "contact/phases.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "contact/hold_times.h"
 #include "contact/loading.h"

@@ -13,7 +13,7 @@
  * tolerance each point may stand off its place by that much in every direction.
  */
 #include "contact/foot_outline.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 #include "contact/gait.h"
 

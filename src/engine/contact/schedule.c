@@ -10,7 +10,7 @@
 #include "contact/flight.h"
 #include "contact/gait.h"
 #include "contact/loading.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 

@@ -12,7 +12,7 @@
  * foot that slides in the last interval. It is what the wrong number of steps comes to, too: after
  * two steps the same foot strikes again, after one the other one does.
  */
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/contact_frame.h"
 #include "contact/effector.h"
 #include "contact/gait.h"

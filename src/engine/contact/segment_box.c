@@ -16,7 +16,7 @@
  * (x(s) - c) . (e_k x n) = 0, c a point of the edge: there the segment has to move, and its ends
  * with the shares 1 - s and s. Segments along an edge have no such n. */
 #include "contact/segment_box.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 

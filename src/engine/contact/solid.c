@@ -1,6 +1,6 @@
 /* contact/solid.c - see solid.h. */
 #include "contact/solid.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/segment_box.h"
 #include "contact/segments.h"
 

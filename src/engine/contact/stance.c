@@ -1,6 +1,6 @@
 /* contact/stance.c - see stance.h. */
 #include "contact/stance.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/effector.h"
 
 #include <math.h>

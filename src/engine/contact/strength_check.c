@@ -13,7 +13,7 @@
  */
 #include "mechanics/lagrangian.h"
 #include "ambulo/mechanics.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/gait.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
  */
 #include "contact/stride_clock.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/contact_image.h"
 
 #include <math.h>

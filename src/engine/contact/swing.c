@@ -1,6 +1,6 @@
 /* contact/swing.c - see swing.h. */
 #include "contact/swing.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/contact_image.h"
 #include "contact/loading.h"
 

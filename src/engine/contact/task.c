@@ -1,6 +1,6 @@
 /* contact/task.c - see task.h. */
 #include "contact/task.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include "model/model.h"
 

@@ -1,7 +1,7 @@
 /* linear/band.c - see band.h. */
 #include "linear/band.h"
 #include "base/lapack.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

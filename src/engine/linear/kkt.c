@@ -20,7 +20,7 @@
  */
 #include "linear/kkt.h"
 #include "linear/parameters.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

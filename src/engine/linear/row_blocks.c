@@ -1,6 +1,6 @@
 /* linear/row_blocks.c - see row_blocks.h. */
 #include "linear/row_blocks.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 
 #include <string.h>
 

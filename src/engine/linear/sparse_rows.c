@@ -1,6 +1,6 @@
 /* linear/sparse_rows.c - see sparse_rows.h. */
 #include "linear/sparse_rows.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "problem/nonfinite.h"
 
 #include <math.h>

@@ -15,7 +15,7 @@
  * objective makes it look like a descent, and its slope sends line searches back.
  */
 #include "method/augmented.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/engine_point.h"
 #include "method/retraction.h"
 

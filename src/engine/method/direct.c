@@ -21,7 +21,7 @@
  * added; stop requests are polled in every callback.
  */
 #include "method/direct.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/engine_point.h"
 #include "method/model_step.h"
 #include "method/nlopt_facts.h"

@@ -1,6 +1,6 @@
 /* method/engine_point.c - see engine_point.h. */
 #include "method/engine_point.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/parameters.h"
 #include "problem/nonfinite.h"
 

@@ -12,7 +12,7 @@
  */
 #include "method/metric.h"
 #include "method/parameters.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "problem/callbacks.h"
 
 #include <math.h>

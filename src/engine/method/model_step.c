@@ -28,7 +28,7 @@
 #include "method/model_step.h"
 #include "method/engine_point.h"
 #include "method/parameters.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 
 #include <float.h>
 #include <math.h>

@@ -20,7 +20,7 @@
  */
 #include "method/presolve_rank.h"
 #include "method/parameters.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "linear/sparse_rows.h"
 
 #include <math.h>

@@ -17,7 +17,7 @@
  * plus penalty on the inequalities is the start: an optimum is not smoothed away.
  */
 #include "method/smooth.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/engine_point.h"
 #include "method/parameters.h"
 #include "method/restore.h"

@@ -9,7 +9,7 @@
  * The joint of a link turns about, or slides along, the z axis of its parent frame.
  */
 #include "model/neutral_pose.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

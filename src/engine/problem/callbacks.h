@@ -2,7 +2,7 @@
 #ifndef AMBULO_PROBLEM_CALLBACKS_H
 #define AMBULO_PROBLEM_CALLBACKS_H
 
-#include "base/clock.h"
+#include "base/machine.h"
 #include "problem/nlp.h"
 
 /* Channels of one node, gathered from the lanes: state[channels]. */

@@ -12,7 +12,7 @@
  * The check needs eight evaluations per unknown and rows * unknowns comparisons; it is meant
  * for grids of a few hundred unknowns.
  */
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "problem/nlp.h"
 
 #include <float.h>

@@ -12,7 +12,7 @@
  * Everything is cached on x: solvers ask for the objective, the constraints and their
  * gradients separately, and SLSQP repeats every third point.
  */
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "problem/callbacks.h"
 #include "problem/nonfinite.h"
 #include "problem/hold_wrench.h"

@@ -10,7 +10,7 @@
  */
 #include "problem/nlp.h"
 
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "problem/callbacks.h"
 #include "problem/nonfinite.h"
 #include "problem/hold_wrench.h"

@@ -4,7 +4,7 @@
  * weight and centre (contact/contact_load.h, mechanics/kernel_contacts.h). o is the mean of the
  * centres that are loaded.
  */
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/contact_load.h"
 #include "contact/effector.h"
 #include "problem/nlp.h"

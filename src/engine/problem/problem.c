@@ -9,7 +9,7 @@
  */
 #include "problem/nlp.h"
 #include "model/capsule_points.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/load_profile.h"
 #include "contact/phases.h"
 #include "contact/contact_load.h"

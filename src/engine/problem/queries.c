@@ -1,5 +1,5 @@
 /* problem/queries.c - what a problem tells about itself. */
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/bounds.h"
 #include "contact/loading.h"
 #include "contact/phases.h"

@@ -7,7 +7,7 @@
  * On another grid: coarser ones start a continuation (knot insertion), finer ones audit what lies
  * between the nodes. */
 #include "ambulo/extend.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/phases.h"
 #include "problem/definition.h"
 #include "problem/nlp.h"

@@ -1,7 +1,7 @@
 /* problem/workspace.c - memory of one evaluation thread: sized once, never grown; and how much a
  * problem takes, before it is taken. */
 
-#include "base/free_memory.h"
+#include "base/machine.h"
 #include "problem/nlp.h"
 
 #include <math.h>

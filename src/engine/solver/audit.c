@@ -20,7 +20,7 @@
  * it lists; why there is no solution: explain.h, elastic.h, relax.c, suggest.h.
  */
 #include "solver/audit.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/engine_point.h"
 #include "method/model_step.h"
 #include "method/presolve_rank.h"

@@ -15,8 +15,7 @@
  */
 #include "solver/partials.h"
 
-#include "base/instant.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* solver/candidates.c - see candidates.h. */
 #include "solver/candidates.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/engine_point.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
  *     W. = (m. + p x f. + p. x f, f.),    T. tau_i. = S_i . (load of i). - sum S_i . W.
  */
 #include "solver/contact_split.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "solver/node_forces.h"
 
 #include "contact/contact_load.h"

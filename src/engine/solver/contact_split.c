@@ -13,7 +13,7 @@
  * since the sums stay those of the root wrench.
  */
 #include "solver/contact_split.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

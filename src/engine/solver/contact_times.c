@@ -18,8 +18,7 @@
  */
 #include "solver/contact_pull.h"
 
-#include "base/instant.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/stance.h"
 
 #include <math.h>

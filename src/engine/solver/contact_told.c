@@ -5,7 +5,7 @@
  * p. = theta x (p - o), and ahead along the surface's forward axis by times (contact_times.c).
  */
 #include "solver/contact_pull.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "solver/node_forces.h"
 #include "solver/sensitivity_surface.h"
 

@@ -6,7 +6,7 @@
  * (contact/clearance.c) and counts as an event too. On a grid on events both gaps are zero.
  */
 #include "solver/dense.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 

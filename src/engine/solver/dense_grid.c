@@ -5,7 +5,7 @@
  * contacts, except those at 0 and T, which are nodes on every grid.
  */
 #include "problem/nlp.h"
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "solver/dense.h"
 
 #include <string.h>

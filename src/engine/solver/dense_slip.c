@@ -15,7 +15,7 @@
  * toes a foot with arcs rolls: how far it slips there the rows of its contact say. A patch in
  * contact is loaded in its middle, and slips along its own surface.
  */
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/contact_frame.h"
 #include "contact/effector.h"
 #include "contact/foot_outline.h"

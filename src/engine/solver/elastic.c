@@ -17,7 +17,7 @@
  * mu falls when E decreases as the model foretells, and rises when E does not decrease.
  */
 #include "solver/elastic.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "method/metric.h"
 #include "method/rows_split.h"
 

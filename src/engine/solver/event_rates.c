@@ -11,7 +11,7 @@
  */
 #include "solver/event_rates.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/hold_times.h"
 
 #include <math.h>

@@ -16,7 +16,7 @@
 #include "solver/event_rates.h"
 #include "solver/partials.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

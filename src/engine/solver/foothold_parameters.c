@@ -11,7 +11,7 @@
  */
 #include "solver/sensitivity_parameters.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/contact_frame.h"
 
 #include <math.h>

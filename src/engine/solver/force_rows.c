@@ -12,7 +12,7 @@
  * ln m = -(c - constant).
  */
 #include "solver/partials.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include "contact/flight.h"
 #include "model/neutral_pose.h"

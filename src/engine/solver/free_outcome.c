@@ -1,7 +1,7 @@
 /* solver/free_outcome.c - see outcome.h. */
 #include "solver/verdict.h"
 #include "solver/free_outcome.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "solver/result.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
  * none has more than MOST_FINER times the intervals of the first.
  */
 #include "ambulo/parameters.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "base/diagnostics.h"
 #include "solver/result.h"
 #include "problem/nlp.h"

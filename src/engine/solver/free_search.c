@@ -13,7 +13,7 @@
  */
 #include "solver/free_outcome.h"
 #include "base/sized.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "base/diagnostics.h"
 #include "contact/effector.h"
 #include "solver/sensitivity_parameters.h"

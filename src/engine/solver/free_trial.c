@@ -6,7 +6,7 @@
  */
 #include "solver/free_search.h"
 #include "ambulo/tools/load.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "base/diagnostics.h"
 
 #include <math.h>

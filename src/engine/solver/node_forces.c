@@ -10,7 +10,7 @@
  * A wrench (M, F) on what the joint carries asks S_i . (M, F) of it: z . (M - o x F), or z . F.
  */
 #include "solver/node_forces.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include <string.h>
 

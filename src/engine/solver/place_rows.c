@@ -21,7 +21,7 @@
  * that goes with the duration.
  */
 #include "solver/sensitivity_surface.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "solver/step_rows.h"
 
 #include "contact/gait.h"

@@ -13,7 +13,7 @@
 #include "solver/verdict.h"
 #include "solver/explain.h"
 #include "solver/audit.h"
-#include "base/worst.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <string.h>

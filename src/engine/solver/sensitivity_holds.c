@@ -18,7 +18,7 @@
  */
 #include "solver/node_forces.h"
 
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "contact/hold_times.h"
 #include "model/model.h"
 

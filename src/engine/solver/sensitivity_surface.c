@@ -14,7 +14,7 @@
  * for l stays across: l. . f = -omega. The part of v. along u turns nothing: u x u = 0, f . l = 0.
  */
 #include "solver/sensitivity_surface.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 
 #include "contact/gait.h"
 #include "contact/swing.h"

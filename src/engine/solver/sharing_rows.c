@@ -16,7 +16,7 @@
  * and each by its surface (surface.c), by its times contact_times.c.
  */
 #include "solver/contact_pull.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "solver/sensitivity_surface.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* solver/solve.c - ambulo_solve: from one start (solver.c), or from the best of several (starts.c).
  */
-#include "base/clock.h"
+#include "base/machine.h"
 #include "solver/result.h"
 #include "solver/options.h"
 #include "solver/session.h"

@@ -13,7 +13,7 @@
  * finer grid or an explanation (two more bands, all gradients) may follow. The largest counts.
  */
 #include "solver/solve_memory.h"
-#include "base/free_memory.h"
+#include "base/machine.h"
 #include "solver/dense.h"
 #include "method/metric.h"
 

@@ -14,7 +14,7 @@
  * by .05 rad or m, root mean square.
  */
 #include "solver/starts.h"
-#include "base/clock.h"
+#include "base/machine.h"
 #include "contact/gait.h"
 #include "solver/result.h"
 #include "model/neutral_pose.h"

@@ -15,8 +15,7 @@
  * plane lies on both edges: then it depends on the direction in which one of them moves.
  */
 #include "solver/step_rows.h"
-#include "base/instant.h"
-#include "base/vector.h"
+#include "base/arithmetic.h"
 #include "solver/sensitivity_surface.h"
 
 #include <math.h>

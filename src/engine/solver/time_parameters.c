@@ -15,7 +15,7 @@
  */
 #include "solver/sensitivity_parameters.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 #include "contact/gait.h"
 #include "contact/phases.h"
 

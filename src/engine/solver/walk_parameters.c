@@ -26,7 +26,7 @@
 #include "contact/gait.h"
 #include "contact/hold_times.h"
 
-#include "base/instant.h"
+#include "base/arithmetic.h"
 
 #include <math.h>
 #include <stdio.h>

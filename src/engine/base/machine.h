@@ -1,6 +1,10 @@
-/* base/free_memory.h - what the machine has left. */
-#ifndef AMBULO_BASE_FREE_MEMORY_H
-#define AMBULO_BASE_FREE_MEMORY_H
+/* base/machine.h - the one clock, by which budgets, reports and limits of time are measured; and
+ * the memory that the machine has left. */
+#ifndef AMBULO_BASE_MACHINE_H
+#define AMBULO_BASE_MACHINE_H
+
+/* s since some fixed moment; never goes back. */
+double ambulo__seconds_now(void);
 
 /* Memory that a process can still have, MB: what the system calls available, and what the limits of
  * its control group and of its address space leave; 0: not known. */

@@ -1,12 +1,19 @@
-/* base/free_memory.c - see free_memory.h. Linux tells it in files; elsewhere only a limit on the
- * address space is known. */
-#include "base/free_memory.h"
+/* base/machine.c - see machine.h. Linux tells the free memory in files; elsewhere only a limit on
+ * the address space is known. */
+#include "base/machine.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
+
+double ambulo__seconds_now(void) {
+  struct timespec now = {0, 0};
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 int ambulo__read_numbers(const char *path, double *first, double *second) {
   FILE *file = fopen(path, "re");

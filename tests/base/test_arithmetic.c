@@ -1,5 +1,5 @@
 /* The worst of many numbers keeps what is not a number. */
-#include "base/worst.h"
+#include "base/arithmetic.h"
 #include "support/test.h"
 
 static void worse_is_the_larger(void **state) {
