@@ -5,7 +5,7 @@
 #include "model/mirror_image.h"
 
 #include "ambulo/tools/tools.h"
-#include "definitions/model_reader.h"
+#include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/symmetric_model.h"
@@ -260,15 +260,10 @@ static void differences_are_told_with_both_numbers(void **state) {
       {"feet[left].toe=[ball_l, toe_medial_l]", "the place of 'toe_lateral_r' along left"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    char text[200];
-    (void)snprintf(text, sizeof text, "%s", cases[i].key);
-    char *value = strchr(text, '=');
-    *value++ = '\0';
-    ambulo__model_setting setting = {text, value};
     ambulo_model *model = NULL;
-    assert_int_equal(
-        ambulo__model_load_with("models/lower_body_18.yaml", NULL, &setting, 1, NULL, NULL, &model),
-        AMBULO_OK);
+    assert_int_equal(ambulo_model_load_with("models/lower_body_18.yaml", &cases[i].key, 1, NULL,
+                                            NULL, NULL, &model),
+                     AMBULO_OK);
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     assert_int_equal(ambulo_model_check_mirror(model, NULL, list), AMBULO_E_MODEL);
     assert_message(list, 0, cases[i].message);

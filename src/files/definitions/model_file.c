@@ -158,8 +158,6 @@ typedef struct source {
   const char *path; /* NULL: the text */
   const char *text, *name;
   size_t length;
-  const ambulo__model_setting *setting; /* [settings] */
-  int settings;
   const char *const *override; /* [overrides] "path=value" */
   int overrides;
 } source;
@@ -196,22 +194,11 @@ static ambulo_status load(const source *from, const ambulo_subject *subject,
     status = from->path ? ambulo__yaml_load(from->path, allocator, diagnostics, &document)
                         : ambulo__yaml_load_text(from->text, from->length, from->name, allocator,
                                                  diagnostics, &document);
-  for (int i = 0; i < from->settings && !status; i++)
-    status =
-        ambulo__yaml_set_below(document, "model.", from->setting[i].path, from->setting[i].value);
   for (int i = 0; i < from->overrides && !status; i++)
     status = apply_override(document, from->override[i], allocator, diagnostics);
   if (!status) status = build(document, &own, allocator, diagnostics, model);
   ambulo__yaml_free(document);
   return status;
-}
-
-ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *subject,
-                                      const ambulo__model_setting *setting, int settings,
-                                      const ambulo_allocator *allocator,
-                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
-  const source from = {.path = path, .setting = setting, .settings = settings};
-  return load(&from, subject, allocator, diagnostics, model);
 }
 
 ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,

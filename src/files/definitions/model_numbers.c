@@ -172,19 +172,25 @@ int ambulo__read_count(const ambulo__yaml_node *list, const char *what, int limi
 static const double LEAST_MASS = 0.5, LARGEST_MASS = 1000;    /* kg */
 static const double LEAST_STATURE = 0.2, LARGEST_STATURE = 3; /* m */
 
-void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root) {
+ambulo_subject ambulo__subject_of(const ambulo__yaml_node *section) {
   static const char *const sexes[] = {"female", "male"};
-  const ambulo__yaml_node *node = ambulo__yaml_get(root, "subject");
+  ambulo_subject s = ambulo_subject_default();
+  s.mass = ambulo__yaml_number_in(ambulo__yaml_get(section, "mass"), LEAST_MASS, LARGEST_MASS,
+                                  AMBULO_OFF);
+  s.stature = ambulo__yaml_number_in(ambulo__yaml_get(section, "stature"), LEAST_STATURE,
+                                     LARGEST_STATURE, AMBULO_OFF);
+  int sex = ambulo__yaml_choice(ambulo__yaml_get(section, "sex"), sexes, 2, -1);
+  if (sex >= 0) s.sex = sex == 0 ? AMBULO_FEMALE : AMBULO_MALE;
+  ambulo__yaml_close(section);
+  return s;
+}
+
+void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root) {
+  const ambulo_subject own = ambulo__subject_of(ambulo__yaml_get(root, "subject"));
   ambulo_subject *s = &reader->subject;
-  double mass =
-      ambulo__yaml_number_in(ambulo__yaml_get(node, "mass"), LEAST_MASS, LARGEST_MASS, AMBULO_OFF);
-  double stature = ambulo__yaml_number_in(ambulo__yaml_get(node, "stature"), LEAST_STATURE,
-                                          LARGEST_STATURE, AMBULO_OFF);
-  int sex = ambulo__yaml_choice(ambulo__yaml_get(node, "sex"), sexes, 2, -1);
-  ambulo__yaml_close(node);
-  if (isnan(s->mass)) s->mass = mass;
-  if (isnan(s->stature)) s->stature = stature;
-  if (s->sex == AMBULO_SEX_NOT_SET && sex >= 0) s->sex = sex == 0 ? AMBULO_FEMALE : AMBULO_MALE;
+  if (isnan(s->mass)) s->mass = own.mass;
+  if (isnan(s->stature)) s->stature = own.stature;
+  if (s->sex == AMBULO_SEX_NOT_SET) s->sex = own.sex;
   reader->definition.stature = s->stature;
 }
 

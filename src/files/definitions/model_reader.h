@@ -83,6 +83,9 @@ int ambulo__read_reference(const ambulo__reader *reader, const ambulo__yaml_node
 
 /* ------------------------------------------------------------------------- sections */
 
+/* What a section `subject` says (NULL: nothing). */
+ambulo_subject ambulo__subject_of(const ambulo__yaml_node *section);
+/* Completes the caller's subject by the file's. */
 void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root);
 /* `asked`: the caller's subject, NULL for none; told when the file does not scale. */
 void ambulo__read_units(ambulo__reader *reader, const ambulo__yaml_node *root,
@@ -101,17 +104,5 @@ void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_capsules(ambulo__reader *reader, const ambulo__yaml_node *list);
-
-/* ------------------------------------------------------------------------ the whole */
-
-/* One value of the model file, replaced before it is read: "links[shank_r].body.mass". */
-typedef struct ambulo__model_setting {
-  const char *path, *value;
-} ambulo__model_setting;
-/* ambulo_model_load with such settings; messages call them "--set model.PATH". */
-ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *subject,
-                                      const ambulo__model_setting *setting, int settings,
-                                      const ambulo_allocator *allocator,
-                                      ambulo_diagnostics *diagnostics, ambulo_model **model);
 
 #endif

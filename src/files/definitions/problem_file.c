@@ -51,10 +51,8 @@ static ambulo_status apply_override(ambulo__problem_reader *reader, ambulo__yaml
   char *path = ambulo__reader_alloc(reader, length + 1, 1);
   if (!path) return AMBULO_E_MEMORY;
   memcpy(path, override, length);
-  static const char model[] = "model.";
-  if (strncmp(path, model, sizeof model - 1) == 0) {
-    ambulo__model_setting setting = {path + sizeof model - 1, equals + 1};
-    reader->setting[reader->settings++] = setting;
+  if (strncmp(path, "model.", 6) == 0) {
+    reader->model_override[reader->model_overrides++] = override;
     return AMBULO_OK;
   }
   ambulo_status status = add_section(document, path);
@@ -64,8 +62,9 @@ static ambulo_status apply_override(ambulo__problem_reader *reader, ambulo__yaml
 static ambulo_status apply_overrides(ambulo__problem_reader *reader, ambulo__yaml *document,
                                      const char *const *overrides, int count) {
   ambulo_status status = AMBULO_OK;
-  reader->setting = ambulo__reader_alloc(reader, (size_t)count, sizeof *reader->setting);
-  if (!reader->setting) return AMBULO_E_MEMORY;
+  reader->model_override =
+      ambulo__reader_alloc(reader, (size_t)count, sizeof *reader->model_override);
+  if (!reader->model_override) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     ambulo_status one = apply_override(reader, document, overrides[i]);
     if (!status) status = one;
@@ -92,30 +91,16 @@ static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node 
   reader->radians = radians ? 1.0 : 3.14159265358979323846 / 180.0;
 }
 
-static ambulo_subject read_subject(const ambulo__yaml_node *root) {
-  static const char *const sexes[] = {"female", "male"};
-  ambulo_subject subject = ambulo_subject_default();
-  const ambulo__yaml_node *section = ambulo__reader_section(root, "subject");
-  if (!section) return subject;
-  subject.mass = ambulo__yaml_number_in(ambulo__yaml_get(section, "mass"), 1.0, 1000.0, AMBULO_OFF);
-  subject.stature =
-      ambulo__yaml_number_in(ambulo__yaml_get(section, "stature"), 0.3, 3.0, AMBULO_OFF);
-  const ambulo__yaml_node *sex = ambulo__yaml_get(section, "sex");
-  if (sex) subject.sex = ambulo__yaml_choice(sex, sexes, 2, 0) ? AMBULO_MALE : AMBULO_FEMALE;
-  ambulo__yaml_close(section);
-  return subject;
-}
-
 static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
-  ambulo_subject subject = read_subject(root);
+  ambulo_subject subject = ambulo__subject_of(ambulo__reader_section(root, "subject"));
   const ambulo__yaml_node *node = ambulo__yaml_require(root, "model");
   const char *name = ambulo__yaml_file_name(node);
   if (!name[0]) return;
   const char *path = ambulo__reader_path(reader, node, name);
   if (!path) return;
   ambulo_status status =
-      ambulo__model_load_with(path, &subject, reader->setting, reader->settings, &reader->allocator,
-                              reader->diagnostics, &reader->model);
+      ambulo_model_load_with(path, reader->model_override, reader->model_overrides, &subject,
+                             &reader->allocator, reader->diagnostics, &reader->model);
   reader->definition.model = reader->model;
   if (!status) return;
   reader->failure = status;

@@ -31,19 +31,19 @@ typedef struct ambulo__problem_reader {
   size_t length;
   const char *const *override; /* [override_count], which it is read with */
   int override_count;
-  ambulo__text_loader *load;      /* of the same text, with other overrides */
-  ambulo__reader_block *blocks;   /* freed with the reader */
-  ambulo_status failure;          /* E_MEMORY, or what a referenced file failed with */
-  double radians;                 /* per unit of angle in the file; 0: not stated */
-  int asked_for_unit;             /* the missing unit has been reported */
-  ambulo_model *model;            /* NULL if it could not be loaded */
-  const ambulo__yaml_node *gait;  /* the section, or NULL */
-  const ambulo__yaml_node *grid;  /* time.grid, or NULL */
-  int has_duration;               /* time.duration is in the file */
-  int steps;                      /* of `gait`, 0 without */
-  int unlike_steps;               /* two step lengths or times that differ */
-  ambulo__model_setting *setting; /* [settings] overrides of the model file's keys */
-  int settings;
+  ambulo__text_loader *load;     /* of the same text, with other overrides */
+  ambulo__reader_block *blocks;  /* freed with the reader */
+  ambulo_status failure;         /* E_MEMORY, or what a referenced file failed with */
+  double radians;                /* per unit of angle in the file; 0: not stated */
+  int asked_for_unit;            /* the missing unit has been reported */
+  ambulo_model *model;           /* NULL if it could not be loaded */
+  const ambulo__yaml_node *gait; /* the section, or NULL */
+  const ambulo__yaml_node *grid; /* time.grid, or NULL */
+  int has_duration;              /* time.duration is in the file */
+  int steps;                     /* of `gait`, 0 without */
+  int unlike_steps;              /* two step lengths or times that differ */
+  const char **model_override;   /* [model_overrides], of the model file's keys */
+  int model_overrides;
   ambulo__problem_keys keys; /* of the file */
   ambulo_problem_definition definition;
   ambulo_options options;
