@@ -181,16 +181,15 @@ static int find_row(ambulo_workspace *workspace, const double *row_weights, doub
 }
 
 /* the reverse sweep of the mechanics, from adjoints that are finite */
-static int find_mechanics(ambulo_workspace *workspace) {
+static void find_mechanics(ambulo_workspace *workspace) {
   const ambulo_problem *p = workspace->problem;
   for (int block = 0; block < p->blocks; block++) ambulo__adjoint_block(workspace, block);
   int node = 0, channel = 0;
-  if (!find_adjoint(workspace, 3 * p->coordinates, &node, &channel)) return 0;
+  if (!find_adjoint(workspace, 3 * p->coordinates, &node, &channel)) return;
   workspace->fault =
       fault_at(p, AMBULO_FAULT_MECHANICS, node, adjoint_at(workspace, node, channel));
   workspace->fault.derivative = 1;
   name_channel(p, channel, &workspace->fault);
-  return 1;
 }
 
 void ambulo__fault_of_curvature(ambulo_workspace *workspace, double value) {
@@ -212,30 +211,30 @@ static void take_sum(ambulo_workspace *workspace, const double *gradient) {
   }
 }
 
-void ambulo__fault_of_gradient(ambulo_workspace *workspace, double objective_weight,
-                               const double *row_weights, const double *gradient) {
-  const ambulo_problem *p = workspace->problem;
+/* of terms [first, end) and of rows (NULL: none) */
+static void find_gradient(ambulo_workspace *workspace, int first, int end, double objective_weight,
+                          const double *row_weights, const double *gradient) {
   double *scratch = workspace->fault_scratch;
   take_sum(workspace, gradient);
-  for (int t = 0; t < p->definition.term_count; t++) {
-    if (objective_weight * p->definition.terms[t].weight == 0.0) continue;
-    if (find_term(workspace, t, scratch)) return;
+  for (int t = first; t < end; t++) {
+    double weight = workspace->problem->definition.terms[t].weight;
+    if (objective_weight * weight != 0.0 && find_term(workspace, t, scratch)) return;
   }
   if (row_weights && find_row(workspace, row_weights, scratch)) return;
   ambulo__adjoint_clear(workspace, scratch);
-  for (int t = 0; t < p->definition.term_count; t++)
-    ambulo__adjoint_term(workspace, t, objective_weight);
+  for (int t = first; t < end; t++) ambulo__adjoint_term(workspace, t, objective_weight);
   if (row_weights) ambulo__adjoint_rows(workspace, row_weights, scratch);
-  (void)find_mechanics(workspace);
+  find_mechanics(workspace);
+}
+
+void ambulo__fault_of_gradient(ambulo_workspace *workspace, double objective_weight,
+                               const double *row_weights, const double *gradient) {
+  find_gradient(workspace, 0, workspace->problem->definition.term_count, objective_weight,
+                row_weights, gradient);
 }
 
 void ambulo__fault_of_term_gradient(ambulo_workspace *workspace, int term, const double *gradient) {
-  double *scratch = workspace->fault_scratch;
-  take_sum(workspace, gradient);
-  if (find_term(workspace, term, scratch)) return;
-  ambulo__adjoint_clear(workspace, scratch);
-  ambulo__adjoint_term(workspace, term, 1.0);
-  (void)find_mechanics(workspace);
+  find_gradient(workspace, term, term + 1, 1.0, NULL, gradient);
 }
 
 void ambulo__fault_of_row(ambulo_workspace *workspace, int row, int variable, double value) {
