@@ -143,7 +143,7 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
   } else if (more > 0.0 && tree->options->repair_inertia) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
-                      "%s: no body has its inertia: %s kg m^2 were added to its moments", name,
+                      "%s: its inertia is impossible: %s kg m^2 were added to its moments", name,
                       ambulo__three_digits(more).text);
   }
   ambulo__place place = ambulo__xml_place(node);

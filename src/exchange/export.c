@@ -159,8 +159,8 @@ static ambulo_status check_names(const job *j, const char *own) {
   for (int i = 0; i < j->model->link_count; i++)
     if (strcmp(j->model->links[i].name, own) == 0)
       return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
-                           "a link is named '%s', as the other program's world is; expected "
-                           "another name",
+                           "a link is named '%s', which is the other program's name for the world; "
+                           "expected another name",
                            own);
   return AMBULO_OK;
 }
@@ -179,20 +179,20 @@ static ambulo_status check_asked(const job *j) {
   if (format == AMBULO_EXPORT_NPZ && !j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
                          "--format urdf writes the model alone",
-                         "an .npz holds a motion, and none is given");
+                         "no motion is given; an .npz holds a motion");
   if (format == AMBULO_EXPORT_URDF && j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
-                         "--format npz writes the motion", "a URDF holds no motion");
+                         "--format npz writes the motion", "a URDF cannot hold a motion");
   if (j->options->problem && !same_body(j->model, j->options->problem->model))
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "the problem is one of another body, '%s'; expected the model's",
+                         "the problem belongs to another body, '%s'; expected the model's",
                          j->options->problem->model->name);
   if (j->options->free_root && format != AMBULO_EXPORT_URDF)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "a free root is a choice of URDF alone");
+                         "only a URDF can have a free root");
   if (j->options->free_root && ambulo__free_root(j->model) < 0)
     return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
-                         "the root is no free body: its first joints are actuated, or branch "
+                         "the root is not free: its first joints are actuated, or branch "
                          "before any mass; expected coordinates with actuated: false");
   return check_names(j, format == AMBULO_EXPORT_OPENSIM ? "ground" : "world");
 }
@@ -204,7 +204,7 @@ static void warn_gravity(const job *j) {
   ambulo__rigid_vector(&j->bodies.world, j->model->gravity, g);
   if (g[0] == 0.0 && g[1] == 0.0 && g[2] == -9.81) return;
   ambulo__warning(j->diagnostics, ambulo__nowhere, NULL,
-                  "a URDF says nothing of gravity: it is %g %g %g m/s^2 in its axes", g[0], g[1],
+                  "a URDF has no gravity; the model's is %g %g %g m/s^2 in its axes", g[0], g[1],
                   g[2]);
 }
 
@@ -219,8 +219,8 @@ static void warn_limits(const job *j) {
   }
   if (uneven)
     ambulo__warning(j->diagnostics, ambulo__nowhere, NULL,
-                    "limits of torque or speed of %d coordinates ('%s') differ by direction: a "
-                    "URDF has one of each, the larger",
+                    "limits of torque or speed of %d coordinates ('%s') differ by direction: the "
+                    "URDF has the larger",
                     uneven, first);
 }
 

@@ -79,8 +79,7 @@ static void expect_ground(loads *l, const ambulo__xml_node *force, const char *w
   const char *frame = ambulo__xml_last_name(value_of(force, which));
   if (!frame[0] || strcmp(frame, "ground") == 0) return;
   ambulo__xml_error(l->xml, ambulo__xml_child(force, which), AMBULO_E_SCHEMA,
-                    "express it in ground",
-                    "<%s> is '%.60s'; forces are read in ground's axes alone", which, frame);
+                    "express it in ground", "<%s> is '%.60s'; expected ground", which, frame);
 }
 
 /* "F:P:T", which commas and the like in a name would break */
@@ -109,11 +108,11 @@ static void read_force(loads *l, const ambulo__xml_node *force) {
   int foot = foot_of_body(l->model, body);
   if (!name) name = "";
   if (off || foot < 0) {
-    ambulo__warning(l->xml->diagnostics, ambulo__xml_place(force), NULL,
-                    off ? "force '%.60s' on '%.60s' is switched off: it is left out"
-                        : "force '%.60s' acts on '%.60s', which is no foot of the model: it is "
-                          "left out",
-                    name, body);
+    ambulo__warning(
+        l->xml->diagnostics, ambulo__xml_place(force), NULL,
+        off ? "force '%.60s' on '%.60s' is switched off: it is left out"
+            : "force '%.60s' acts on '%.60s', which is not a foot of the model: it is left out",
+        name, body);
     return;
   }
   expect_ground(l, force, "force_expressed_in_body");
@@ -126,7 +125,7 @@ static const ambulo__xml_node *read_forces(loads *l, const ambulo__xml_node *roo
   int count = 0;
   if (!list) {
     ambulo__xml_error(l->xml, root, AMBULO_E_SCHEMA, NULL,
-                      "this is no file of external loads (got <%.40s>); expected "
+                      "this is not a file of external loads (got <%.40s>); expected "
                       "<OpenSimDocument> with <ExternalLoads>",
                       root->first ? root->first->name : root->name);
     return NULL;
@@ -137,7 +136,7 @@ static const ambulo__xml_node *read_forces(loads *l, const ambulo__xml_node *roo
     count += l->columns[foot].length > 0 || l->columns[foot].failed;
   if (!l->xml->status && !l->xml->arena->failed && count == 0)
     ambulo__xml_error(l->xml, list, AMBULO_E_SCHEMA, NULL,
-                      "no force acts on a foot of model '%.60s'", l->model->name);
+                      "no force acts on a foot of the model '%.60s'", l->model->name);
   return list;
 }
 

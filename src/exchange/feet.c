@@ -82,9 +82,9 @@ static int foot_from_solids(feet *f, const char *name, int link) {
                       "%s: %s, so the foot '%s' has no points: give them by --heel %s=%s:X,Y,Z and "
                       "--toe",
                       t->links[link].name,
-                      sole.meshes   ? "its geometry is a mesh, which is not read"
+                      sole.meshes   ? "its geometry is a mesh that could not be read"
                       : sole.solids ? "its geometry touches the ground in one point"
-                                    : "it has no geometry to touch the ground with",
+                                    : "it has no geometry that touches the ground",
                       name, name, t->links[link].name);
     return 0;
   }
@@ -137,9 +137,10 @@ static int parse_corners(ambulo__tree *t, const char *option, const char *text, 
       int good = count < 2 && ambulo__parse_double(part, digits, &value) && fabs(value) < 1e4 &&
                  (i == 2 || part[digits] == ',');
       if (!good) {
-        ambulo__xml_error(t->xml, NULL, AMBULO_E_ARGUMENT, NULL,
-                          "--%s: '%.80s' is no place; expected X,Y,Z or X,Y,Z:X,Y,Z in metres",
-                          option, text);
+        ambulo__xml_error(
+            t->xml, NULL, AMBULO_E_ARGUMENT, NULL,
+            "--%s: '%.80s' is not a position; expected X,Y,Z or X,Y,Z:X,Y,Z in metres", option,
+            text);
         return 0;
       }
       at[count][i] = value;
@@ -149,7 +150,7 @@ static int parse_corners(ambulo__tree *t, const char *option, const char *text, 
   }
   if (count == 0)
     ambulo__xml_error(t->xml, NULL, AMBULO_E_ARGUMENT, NULL,
-                      "--%s names no place; expected FOOT=LINK:X,Y,Z", option);
+                      "--%s has no position; expected FOOT=LINK:X,Y,Z", option);
   return count;
 }
 
@@ -304,9 +305,9 @@ static void keep_in_range(ambulo__tree *tree, ambulo__tree_link *link) {
   ambulo_coordinate *c = &link->coordinate;
   double inside = fmin(c->range[1], fmax(c->range[0], c->default_value));
   if (c->default_value == 0.0 || inside == c->default_value) return;
-  ambulo__tree_note(tree, link->node,
-                    "%s stands at %s by default, outside its range: it starts at %s", c->name,
-                    ambulo__number_text(c->default_value).text, ambulo__number_text(inside).text);
+  ambulo__tree_note(tree, link->node, "%s is %s by default, outside its range: it starts at %s",
+                    c->name, ambulo__number_text(c->default_value).text,
+                    ambulo__number_text(inside).text);
   c->default_value = inside;
 }
 

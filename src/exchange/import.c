@@ -36,7 +36,7 @@ static void read_format(ambulo__tree *tree, ambulo__xml_node *root, const char *
   if (which == 2) ambulo__read_mjcf(tree, root, path);
   if (which < 0)
     ambulo__xml_error(tree->xml, root, AMBULO_E_SCHEMA, NULL,
-                      "this is no model that can be imported (got <%.40s>); expected <robot> "
+                      "this is not a model that can be imported (got <%.40s>); expected <robot> "
                       "(URDF), <OpenSimDocument> or <mujoco>",
                       root->name);
 }

@@ -119,9 +119,8 @@ static void warn_unknown(const builder *b) {
     }
     if (!pressed && strncmp(name, "device.", 7) != 0) continue;
     ambulo__warning(b->diagnostics, ambulo__nowhere,
-                    "name the problem in place of its model, and its devices and patches are "
-                    "exported, too",
-                    "the motion has '%s': without its problem that is left out", name);
+                    "give the problem instead of the model to export its devices and patches",
+                    "the motion has '%s', which is left out without its problem", name);
     return;
   }
 }
@@ -255,8 +254,8 @@ static void note_rest(const builder *b) {
     worst[1] = fmax(worst[1], sqrt(ambulo__dot(rest, rest)) / weight);
   }
   ambulo__note(b->diagnostics, ambulo__nowhere,
-               "with the forces on patches at most %.1e body weights and %.1e body weights m "
-               "are left over at the root",
+               "the residual at the root, with the forces on patches, is at most %.1e body weights "
+               "and %.1e body weights m",
                worst[0], worst[1]);
 }
 

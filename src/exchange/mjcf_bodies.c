@@ -229,7 +229,7 @@ static void read_bodies(ambulo__mjcf *m, const ambulo__xml_node *node, int paren
     for (int i = 0; i < 4; i++)
       if (ambulo__xml_is(n, unknown[i]))
         ambulo__xml_error(m->xml, n, AMBULO_E_SCHEMA, "save the model from MuJoCo: mj_saveLastXML",
-                          "<%s> makes bodies of its own and is not read; expected <body>", n->name);
+                          "<%s> generates bodies and is not supported; expected <body>", n->name);
     if (ambulo__xml_is(n, "body")) read_body(m, n, parent, around, frame);
     if (!ambulo__xml_is(n, "frame")) continue;
     ambulo__rigid own = ambulo__mjcf_place(m, n, around);

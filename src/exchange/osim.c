@@ -213,8 +213,7 @@ static void read_body(ambulo__osim *o, const ambulo__osim_body *body) {
 /* A body without a joint floats: OpenSim gives it six coordinates, and so is done here. */
 static int float_freely(ambulo__osim *o, ambulo__osim_body *body, int parent) {
   ambulo__chain chain = ambulo__chain_begin(o->tree, parent, body->node);
-  ambulo__tree_note(o->tree, body->node, "%s has no joint: it has six coordinates of its own",
-                    body->name);
+  ambulo__tree_note(o->tree, body->node, "%s has no joint: it gets six coordinates", body->name);
   ambulo__chain_free(&chain, body->name);
   return ambulo__chain_end(&chain, body->name);
 }

@@ -51,7 +51,7 @@ static double follow(ambulo__osim *o, const ambulo__xml_node *node, const char *
   ambulo__tree_note(
       o->tree, node,
       "%s follows %s (%s): it is held at %s; by its %s it would move by up to %s (rad "
-      "or m) over the range of that",
+      "or m) over that coordinate's range",
       name, leader, ambulo__xml_name(coupler), ambulo__number_text(value).text,
       function ? function->name : "function", ambulo__three_digits(most).text);
   return value;

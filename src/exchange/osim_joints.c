@@ -58,10 +58,10 @@ static void put_moving(building *b, int slides, const double axis[3], int c, dou
                                  coordinate->name);
   b->has_link[c] = 1;
   if (fabs(slope) != 1.0)
-    ambulo__tree_note(b->o->tree, b->joint->node,
-                      "%s is %s times the coordinate of the source, which the joint's angle or "
-                      "length is",
-                      coordinate->name, ambulo__number_text(fabs(slope)).text);
+    ambulo__tree_note(
+        b->o->tree, b->joint->node,
+        "%s is %s times the source's coordinate, so that it is the joint's angle or length",
+        coordinate->name, ambulo__number_text(fabs(slope)).text);
   ambulo__osim_limits(b->o, coordinate, fabs(slope), link);
   if (link >= 0) b->o->tree->links[link].coordinate.default_value = fabs(slope) * coordinate->value;
 }
@@ -153,8 +153,7 @@ static void choose(building *b, transform_axis *axes) {
       if (axes[i].coordinate == c && i != owner && axes[i].slope != 0.0) axes[i].linear = 0;
     if (owner < 0 && !b->coordinates[c].held)
       ambulo__tree_note(b->o->tree, b->coordinates[c].node,
-                        "%s drives no axis by a straight line: it is left out, with its joint held "
-                        "at %s",
+                        "%s drives no axis linearly: it is left out, and its joint is held at %s",
                         b->coordinates[c].name, ambulo__number_text(b->coordinates[c].value).text);
   }
 }

@@ -178,8 +178,7 @@ static void print_head(const ambulo__tree *tree, const char *source, ambulo__tex
                             "torques in N m; limits "
                             "are\n# rounded to a millionth of a degree.\n");
   if (tree->note_count)
-    ambulo__text_append(text,
-                        "#\n# What was changed, and what the source has and this file has not:\n");
+    ambulo__text_append(text, "#\n# What was changed, and what of the source is missing here:\n");
   for (int i = 0; i < tree->note_count; i++) {
     ambulo__text_append(text, "#   - ");
     plain_text(text, tree->notes[i]);

@@ -107,7 +107,7 @@ static double follow(ambulo__tree *tree, const ambulo__xml_node *joint,
   double most = fabs(multiplier) * fmax(fabs(range[0] - stands), fabs(range[1] - stands));
   ambulo__tree_note(tree, joint,
                     "%s follows %s (times %s plus %s): it is held at %s; it would move by up to %s "
-                    "(rad or m) over the range of that",
+                    "(rad or m) over that coordinate's range",
                     name, leader, ambulo__number_text(multiplier).text,
                     ambulo__number_text(offset).text, ambulo__number_text(value).text,
                     ambulo__three_digits(most).text);

@@ -276,7 +276,7 @@ static void entity(void *user, const XML_Char *name, int is_parameter, const XML
                    const XML_Char *public_id, const XML_Char *notation) {
   (void)name, (void)is_parameter, (void)value, (void)length, (void)base, (void)system;
   (void)public_id, (void)notation;
-  stop(user, AMBULO_E_PARSE, "put the text that it stands for in its place",
+  stop(user, AMBULO_E_PARSE, "replace the entity by its text",
        "the document declares an entity; expected none");
 }
 

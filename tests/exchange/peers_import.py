@@ -344,7 +344,7 @@ def compare_osim(ambulo, source, scratch, seed):
     osim_freeze(osim, model, state)
     scale = {}
     for line in open(target, encoding="utf-8"):
-        if "times the coordinate of the source" in line:
+        if "times the source's coordinate" in line:
             words = line.split("#   - ")[1].split()
             scale[words[0]] = float(words[2])
     states = random_states(names, seed)

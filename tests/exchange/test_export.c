@@ -241,11 +241,11 @@ static void refusals(void **state) {
   scratch_write(motion, motion_text);
   refused(state, walker_file, NULL, &o, AMBULO_E_ARGUMENT, "an .npz holds a motion");
   o.format = AMBULO_EXPORT_URDF;
-  refused(state, walker_file, motion, &o, AMBULO_E_ARGUMENT, "a URDF holds no motion");
+  refused(state, walker_file, motion, &o, AMBULO_E_ARGUMENT, "a URDF cannot hold a motion");
   o.free_root = 1;
-  refused(state, "models/pendulum.yaml", NULL, &o, AMBULO_E_MODEL, "the root is no free body");
+  refused(state, "models/pendulum.yaml", NULL, &o, AMBULO_E_MODEL, "the root is not free");
   o.format = AMBULO_EXPORT_OPENSIM;
-  refused(state, walker_file, NULL, &o, AMBULO_E_ARGUMENT, "a free root is a choice of URDF");
+  refused(state, walker_file, NULL, &o, AMBULO_E_ARGUMENT, "only a URDF can have a free root");
   assert_int_equal(entries_in(*state), 1);
 }
 
@@ -257,7 +257,7 @@ static void what_is_lost_is_told(void **state) {
   slope.slope = 0.1;
   assert_int_equal(ambulo_model_adapt(model, &slope, NULL, NULL, &up), AMBULO_OK);
   assert_int_equal(ambulo_export(up, NULL, scratch_path(state, "u"), &o, NULL, list), AMBULO_OK);
-  assert_message(list, 0, "a URDF says nothing of gravity: it is -0.979366 0 -9.76099 m/s^2");
+  assert_message(list, 0, "a URDF has no gravity; the model's is -0.979366 0 -9.76099 m/s^2");
   assert_message(list, 1, "limits of torque or speed of 6 coordinates ('hip_flexion_r')");
   ambulo_diagnostics_free(list);
   ambulo_model_free(up);

@@ -76,8 +76,8 @@ static void left_out(void **state) {
   assert_int_equal(ambulo_diagnostics_count(c.list), 4);
   assert_message(c.list, 0, "warning: force 'a' on 'foot_r' is switched off");
   assert_message(c.list, 1, "warning: force 'b' on 'foot_r' is switched off");
-  assert_message(c.list, 2, "force 'c' acts on 'hand_r', which is no foot");
-  assert_message(c.list, 3, "force 'd' acts on 'thorax', which is no foot");
+  assert_message(c.list, 2, "force 'c' acts on 'hand_r', which is not a foot");
+  assert_message(c.list, 3, "force 'd' acts on 'thorax', which is not a foot");
   shut(&c);
 }
 
@@ -103,9 +103,9 @@ static void bad(void **state, const char *xml, const char *want) {
 
 static void faults(void **state) {
   bad(state, "<OpenSimDocument><Model/></OpenSimDocument>",
-      "this is no file of external loads (got <Model>)");
+      "this is not a file of external loads (got <Model>)");
   bad(state, LOADS(FORCE("a", "foot_r", "", "v", "p", "t"), ""), "no <datafile>");
-  bad(state, LOADS("", TABLE), "no force acts on a foot of model 'lower_body_18'");
+  bad(state, LOADS("", TABLE), "no force acts on a foot of the model 'lower_body_18'");
   bad(state, LOADS(FORCE("a", "foot_r", "", "", "p", "t"), TABLE), "<force_identifier> is ''");
   bad(state, LOADS(FORCE("a", "foot_r", "", "v", "p:q", "t"), TABLE),
       "<point_identifier> is 'p:q'");

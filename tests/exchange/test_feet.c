@@ -75,10 +75,9 @@ static void what_is_missing(void **state) {
   import_case c = import_good(state, HEAD LEG("r", "-0.1", "<geom type='mesh' mesh='m' mass='0'/>")
                                          LEG("l", "0.1", "<geom size='.02' pos='0 0 -.05'/>") TAIL);
   assert_int_equal(ambulo_model_foot_count(c.model), 0);
-  assert_told(
-      &c,
-      "foot_r: its geometry is a mesh, which is not read, so the foot 'right' has no points: give "
-      "them by --heel right=foot_r:X,Y,Z and --toe");
+  assert_told(&c, "foot_r: its geometry is a mesh that could not be read, so the foot 'right' has "
+                  "no points: give "
+                  "them by --heel right=foot_r:X,Y,Z and --toe");
   assert_told(&c, "foot_l: its geometry touches the ground in one point");
   import_shut(&c);
 }
@@ -116,9 +115,9 @@ static void options_that_are_wrong(void **state) {
       {"right", "right=foot_r:1,2,3", "has no --toe"},
       {"right=foot_r:1,2,3", "left=foot_r:1,2,3", "has no --toe; expected --toe right=LINK:X,Y,Z"},
       {"right=foot_x:1,2,3", "right=foot_r:1,2,3", "hint: did you mean 'foot_"},
-      {"right=foot_r:1,2", "right=foot_r:1,2,3", "--heel: '1,2' is no place; expected X,Y,Z"},
-      {"right=foot_r:1,2,3:1,2,3:1,2,3", "right=foot_r:1,2,3", "is no place"},
-      {"right=foot_r", "right=foot_r:1,2,3", "--heel names no place"},
+      {"right=foot_r:1,2", "right=foot_r:1,2,3", "--heel: '1,2' is not a position; expected X,Y,Z"},
+      {"right=foot_r:1,2,3:1,2,3:1,2,3", "right=foot_r:1,2,3", "is not a position"},
+      {"right=foot_r", "right=foot_r:1,2,3", "--heel has no position"},
       {"right=:1,2,3", "right=foot_r:1,2,3", "names no link; expected FOOT=LINK:X,Y,Z"}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     ambulo_import_options o = ambulo_import_options_default();
@@ -227,7 +226,7 @@ static void without_feet(void **state) {
   import_case c = with_pose(state, OSIM("0.9", "0.6", "-1 0.5"), NULL, NULL, NULL);
   assert_close(start_of(&c, "ty"), 0.9, 1e-12);
   assert_close(start_of(&c, "knee"), 0.5, 1e-8);
-  assert_told(&c, "knee stands at 0.6 by default, outside its range: it starts at 0.5");
+  assert_told(&c, "knee is 0.6 by default, outside its range: it starts at 0.5");
   import_shut(&c);
 }
 

@@ -133,12 +133,12 @@ static void shank_above_a_foot(void **state) {
 static void unreadable(void **state) {
   static const char *const texts[] = {"", "<COLLADA/>", "v 1 2\nv 1 2 x\n", "solid\nvertex 1\n"};
   import_case c = import_good(state, ROBOT("nowhere.stl", ""));
-  assert_told(&c, "foot_r: its geometry is a mesh, which is not read");
+  assert_told(&c, "foot_r: its geometry is a mesh that could not be read");
   import_shut(&c);
   for (int i = 0; i < 4; i++) {
     scratch_write(scratch_path(state, "foot.mesh"), texts[i]);
     c = import_good(state, ROBOT("foot.mesh", ""));
-    assert_told(&c, "foot_r: its geometry is a mesh, which is not read");
+    assert_told(&c, "foot_r: its geometry is a mesh that could not be read");
     import_shut(&c);
   }
 }

@@ -200,7 +200,7 @@ static void without_the_problem(void **state) {
   assert_int_equal(ambulo__loads_create(&c.bodies, NULL, &c.source, c.list, &loads), AMBULO_OK);
   assert_int_equal(loads.count, 0);
   assert_message(c.list, 0,
-                 "the motion has 'device.tendon.force': without its problem that is left out");
+                 "the motion has 'device.tendon.force', which is left out without its problem");
   ambulo__loads_free(&loads);
   close_case(&c);
 }

@@ -129,7 +129,7 @@ static void what_is_wrong(void **state) {
        "has a mass but no inertia; expected diaginertia or fullinertia"},
       {MODEL("<body quat='0 0 0 0'><joint/></body>"), AMBULO_E_MODEL,
        "the orientation of <body> has no direction"},
-      {MODEL("<replicate count='3'/>"), AMBULO_E_SCHEMA, "<replicate> makes bodies of its own"},
+      {MODEL("<replicate count='3'/>"), AMBULO_E_SCHEMA, "<replicate> generates bodies"},
       {"<mujoco><compiler eulerseq='xyw'/></mujoco>", AMBULO_E_SCHEMA,
        "eulerseq of <compiler> is 'xyw'"},
       {"<mujoco><worldbody><body>" BODY "</body></worldbody></mujoco>", AMBULO_E_MODEL,

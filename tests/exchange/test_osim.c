@@ -104,7 +104,7 @@ static void several_roots(void **state) {
   import_case c = import_good(state, V4(BODY("a") BODY("b"), PIN("1", "ground", "a"), ""));
   assert_string_equal(ambulo_model_link(c.model, 0)->name, "ground");
   assert_int_equal(ambulo_model_coordinate_count(c.model), 7);
-  assert_told(&c, "b has no joint: it has six coordinates of its own");
+  assert_told(&c, "b has no joint: it gets six coordinates");
   import_shut(&c);
 }
 

@@ -255,7 +255,7 @@ static void changes_are_named(void **state) {
       "frozen at "
       "bend = 0.1; over its range it slides by up to 18.1 mm",
       "knee: rotation3 follows bend by a SimmSpline: frozen at bend = 0.1",
-      "stretch is 2 times the coordinate of the source",
+      "stretch is 2 times the source's coordinate",
       "lock_turn is locked in the source: it is held at 0.4 (--unlock: it moves)",
       "follow_turn follows hip_turn (follow_hip): it is held at 0.1",
       "1 SpringGeneralizedForce (muscles and other forces) is left out"};

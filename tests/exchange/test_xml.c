@@ -51,7 +51,7 @@ static void what_is_no_xml(void **state) {
   import_bad(state, "<robot name='r'><link a='1' a='2'/></robot>", AMBULO_E_PARSE,
              "duplicate attribute");
   import_bad(state, "<sdf/>", AMBULO_E_SCHEMA,
-             "t.xml:1:1: error[E_SCHEMA]: this is no model that can be imported (got <sdf>)");
+             "t.xml:1:1: error[E_SCHEMA]: this is not a model that can be imported (got <sdf>)");
 }
 
 /* a billion laughs, and a file of the system, are entities: none is read */
