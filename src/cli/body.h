@@ -13,18 +13,18 @@
   AMBULO__CLI_SET_OPTION, {"mass", 0, "KG", "body mass of the subject"},                           \
       {"stature", 0, "M", "stature of the subject"},                                               \
       {"sex", 0, "female|male", "sex of the subject"},                                             \
-      {"slope", 0, "DEG", "the ground rises so much along forward"}, {                             \
-    "load", 0, "LINK:KG:X,Y,Z", "a mass fixed on a link, at a place in its frame (m)"              \
+      {"slope", 0, "DEG", "slope of the ground along forward"}, {                                  \
+    "load", 0, "LINK:KG:X,Y,Z", "add a mass to a link, at a position in its frame, m"              \
   }
 
 #define AMBULO__CLI_FORCE_OPTIONS                                                                  \
   {"grf", 0, "FILE|none",                                                                          \
-   "forces on the feet (CSV, STO or MOT, or OpenSim's external loads,\n"                           \
-   "XML, which name the table and its columns), taken off the torques\n"                           \
-   "(default: the columns grf.* of the motion, if it has some)"},                                  \
+   "forces on the feet (CSV, STO or MOT, or OpenSim's external loads),\n"                          \
+   "which are subtracted from the torques (default: the columns grf.*\n"                           \
+   "of the motion, if any)"},                                                                      \
   {                                                                                                \
     "force-columns", 0, "MAP",                                                                     \
-        "columns of forces of each foot, when their names do not tell:\n"                          \
+        "columns of forces of each foot, if their names do not say it:\n"                          \
         "left=ground_force_1,right=ground_force_2+ground_force_3 or right=none"                    \
   }
 

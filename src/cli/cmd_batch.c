@@ -48,7 +48,7 @@ static int show(void *user, const ambulo_batch_progress *p) {
   int seen = ambulo__cli_stops();
   if (seen == 1 && !v->warned && !v->quiet) {
     v->warned = 1;
-    fprintf(stderr, "%sfinishing %d running cases; once more to stop now\n",
+    fprintf(stderr, "%sfinishing %d running cases; press Ctrl-C again to stop now\n",
             v->terminal ? "\r\033[K" : "", p->running);
   }
   return seen > 2 ? 2 : seen;
@@ -88,8 +88,9 @@ static void print_front(const ambulo_front_census *f) {
   printf("front of %d points", f->points);
   if (f->points > 1 && f->mean_gap > 0.0)
     printf(", largest gap %.2f mean gaps", f->largest_gap / f->mean_gap);
-  if (f->refused > 0) printf(", %d gap%s refused to close", f->refused, f->refused > 1 ? "s" : "");
-  if (f->left_out > 0) printf(", %d left out that another beats", f->left_out);
+  if (f->refused > 0)
+    printf(", %d gap%s could not be closed", f->refused, f->refused > 1 ? "s" : "");
+  if (f->left_out > 0) printf(", %d dominated points left out", f->left_out);
   printf("\n");
 }
 
@@ -149,7 +150,7 @@ static int dry_run(const ambulo_sweep *sweep, const char *directory, int workers
   int cases = ambulo_sweep_case_count(sweep), code = 0;
   print_cases(sweep);
   if (ambulo_sweep_front_points(sweep) > cases) {
-    printf("and at least %d between them, whose weights follow from these\n",
+    printf("and at least %d between them, whose weights depend on these\n",
            ambulo_sweep_front_points(sweep) - cases);
     cases = ambulo_sweep_front_points(sweep);
   }
@@ -187,7 +188,7 @@ static int print_status(const char *directory, int verify) {
   if (code) return code;
   printf("cases    %d\ndone     %d\nfailed   %d\nmissing  %d\nstale    %d\ncorrupt  %d\n", c.cases,
          c.done, c.failed, c.missing, c.stale, c.corrupt);
-  if (c.done > 0) printf("seconds  %.2f a case\n", c.seconds / c.done);
+  if (c.done > 0) printf("seconds  %.2f per case\n", c.seconds / c.done);
   printf("running  %s\n", c.holder[0] ? c.holder : "no");
   if (!verify) return 0;
   if (c.corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
@@ -198,7 +199,8 @@ static int run(const ambulo__cli_input *input) {
   const char *folder = ambulo__cli_value(input, "status");
   const char *verified = ambulo__cli_value(input, "verify");
   if (folder && verified)
-    return ambulo__cli_usage_error("batch", NULL, "--status and --verify; expected one of them");
+    return ambulo__cli_usage_error("batch", NULL,
+                                   "--status and --verify are given; expected one of them");
   if (folder || verified) return print_status(folder ? folder : verified, verified != NULL);
   int dry = ambulo__cli_flag(input, "dry-run");
   const char *directory = ambulo__cli_value(input, "output");
@@ -215,8 +217,8 @@ static int run(const ambulo__cli_input *input) {
   if (status) {
     code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
   } else if (ambulo_sweep_front_points(sweep) > 0 && o.shards > 1) {
-    code = ambulo__cli_usage_error("batch", "its points follow from each other",
-                                   "--shard with a front; expected one run with -j N");
+    code = ambulo__cli_usage_error("batch", "its points depend on each other",
+                                   "--shard cannot divide a front; expected one run with -j N");
   } else {
     if (dry) (void)ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
     code = dry ? dry_run(sweep, directory, o.workers) : run_sweep(input, sweep, &o, diagnostics);
@@ -227,32 +229,33 @@ static int run(const ambulo__cli_input *input) {
 }
 
 static const ambulo__cli_option options[] = {
-    {"output", 'o', "DIR", "batch folder; one that exists is resumed"},
-    {"jobs", 'j', "N", "processes at once (default: usable processors, as memory allows)"},
-    {"shard", 0, "i/k", "only the i-th of k parts, for the tasks of a cluster"},
+    {"output", 'o', "DIR", "batch folder; an existing one is resumed"},
+    {"jobs", 'j', "N", "number of processes (default: usable processors, as memory allows)"},
+    {"shard", 0, "i/k", "only part i of k, for the tasks of a cluster"},
     {"case-time", 0, "S", "kill a case after S seconds"},
-    {"case-memory", 0, "MB", "address space of a case"},
-    {"grace", 0, "S", "what running cases get after Ctrl-C (default: 30)"},
-    {"force", 0, NULL, "inputs changed: compute the cases that differ, keep the others"},
-    {"dry-run", 0, NULL, "print the case list, solve nothing"},
-    {"status", 0, "DIR", "print the state of a batch folder, running or not, by its records"},
+    {"case-memory", 0, "MB", "limit the address space of a case"},
+    {"grace", 0, "S", "time that running cases have after Ctrl-C (default: 30)"},
+    {"force", 0, NULL, "if inputs changed, compute the cases that differ and keep the others"},
+    {"dry-run", 0, NULL, "print the list of cases, solve nothing"},
+    {"status", 0, "DIR", "print the state of a batch folder, from its records"},
     {"verify", 0, "DIR",
-     "the same by reading every file and comparing it with its checksum; names\n"
-     "what is damaged. Exit code 0: all is finished and intact; 1: some cases are\n"
-     "missing or stale; 4: some are damaged, which the same batch computes again"},
+     "the same from all files and their checksums; names damaged files.\nExit code 0: all cases "
+     "are finished and intact; 1: some are missing or\nstale; 4: some are damaged, and the same "
+     "batch computes them again"},
     {"quiet", 'q', NULL, "no progress, no summary"},
 };
 
 const ambulo__cli_command ambulo__cli_batch = {
     .name = "batch",
     .arguments = "SWEEP.yaml",
-    .summary = "solve the cases of a sweep, many at a time",
+    .summary = "solve all cases of a sweep in parallel",
     .description =
         "Solves every case of the sweep in a process of its own and keeps results and records in\n"
-        "the folder. What is finished stays: the same command goes on where it was stopped or\n"
-        "killed. Ctrl-C finishes the running cases, a second one stops at once. Exit code 0: all\n"
-        "cases solved; 1: some have no valid solution; 3: the inputs are not those the folder\n"
-        "was filled from; 4: the folder is locked or cannot be written.",
+        "the folder. The same command resumes after an interruption. Ctrl-C finishes the running\n"
+        "cases; a second one stops at once. Exit code 0: all cases solved; 1: some have no valid\n"
+        "solution; 3: the folder was filled from other inputs; 4: the folder is locked or cannot "
+        "be\n"
+        "written.",
     .example = "ambulo batch models/sweep_walk.yaml -o walks -j 4\nambulo collect walks",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
@@ -271,7 +274,7 @@ static int print_census(const char *directory, const ambulo_batch_census *c) {
          c->cases, c->done, c->failed, c->missing, c->stale, c->corrupt);
   int incomplete = c->missing + c->stale + c->corrupt;
   if (c->holder[0]) {
-    printf("a batch runs in it: %s\n", c->holder);
+    printf("a batch is running in it: %s\n", c->holder);
   } else if (incomplete) {
     printf("run 'ambulo batch' with -o %s again to complete it\n", directory);
   }
@@ -288,7 +291,7 @@ static int is_no_batch(const char *directory) {
 static int collect(const ambulo__cli_input *input) {
   const char *directory = input->arguments[0];
   if (is_no_batch(directory)) {
-    ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' fills one",
+    ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' creates one",
                       "%s is not a batch folder (it has no batch.json)", directory);
     return ambulo_status_exit_code(AMBULO_E_IO);
   }
@@ -316,11 +319,13 @@ const ambulo__cli_command ambulo__cli_collect = {
     .arguments = "DIR",
     .summary = "write the table of a batch",
     .description =
-        "Writes DIR/results.csv and DIR/results.jsonl: one line per case, sorted by id, with the\n"
-        "axes and the outputs the sweep file asks for. The same results give the same bytes,\n"
-        "however they were computed. Every file is compared with its checksum. Exit code 0: every\n"
-        "case is finished; 1: some are missing, or stale (of other inputs); 4: some are corrupt\n"
-        "(damaged since, or cannot be read). The table is written all the same and says which.",
+        "Writes DIR/results.csv and DIR/results.jsonl: one line for each case, sorted by id, with\n"
+        "the axes and the outputs that the sweep asks for. The same results give the same bytes.\n"
+        "Every file is compared with its checksum. Exit code 0: every case is finished; 1: some "
+        "are\n"
+        "missing or stale (of other inputs); 4: some are corrupt (damaged or unreadable). The "
+        "table\n"
+        "is written in any case and marks them.",
     .example = "ambulo collect walks",
     .former = former,
     .minimum = 1,

@@ -185,9 +185,10 @@ const ambulo__cli_command ambulo__cli_check = {
     .summary = "validate models and problems; check gradients",
     .description =
         "Reads each file with every check that a solve makes. Compares the gradients of a problem\n"
-        "with central differences: one line a family, with the worst row, unknown and time.\n"
-        "Reports feet that are off the ground at the start pose. --set changes every file named.\n"
-        "Exit code 1 if a gradient differs by more than 1e-7 of its size, 3 if a file is invalid.",
+        "with central differences: one line for each family, with the worst row, unknown and "
+        "time.\n"
+        "Reports feet that are off the ground in the start pose. --set applies to every file.\n"
+        "Exit code 1: a gradient is off by more than 1e-7 of its size; 3: a file is invalid.",
     .example = "ambulo check models/lower_body_18.yaml models/yardstick_12.yaml\n"
                "ambulo check models/yardstick_12.yaml --set time.intervals=24",
     .options = options,

@@ -120,7 +120,7 @@ static int run(const ambulo__cli_input *input) {
   if (code) return code;
   if (options.map && input->argument_count < 2)
     return ambulo__cli_usage_error("compare", NULL,
-                                   "--map names the curves of a table; expected DIR REFERENCE.csv");
+                                   "--map needs a reference table; expected DIR REFERENCE.csv");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo_comparison *comparison = NULL;
   char *text = NULL;
@@ -145,31 +145,32 @@ static const ambulo__cli_option options[] = {
     {"json", 0, NULL, "print the scores as JSON"},
     {"map", 0, "FILE", "column map (CSV) instead of the built-in one"},
     {"columns", 0, "NAMES", "only these curves, separated by commas"},
-    {"foot", 0, "left|right", "one foot alone (default: the mean of both where alike)"},
-    {"pelvic-tilt", 0, "DEG", "anterior tilt of the reference's pelvis (default 11.4)"},
+    {"foot", 0, "left|right", "compare one foot (default: the mean of both where they are alike)"},
+    {"pelvic-tilt", 0, "DEG", "anterior tilt of the reference's pelvis (default: 11.4)"},
     {"strike", 0, "S|SIDE=S,S,...",
-     "time of heel strike (default: from the folder); of a motion, the\ntimes at which the heels "
-     "strike, left=0.1,1.2 (default: found)"},
-    {"forces", 0, "FILE", "ground forces beside a motion (CSV, STO, MOT)"},
-    {"force-columns", 0, "MAP", "whose they are: left=NAME,right=NAME (default: by the names)"},
-    {"cycles", 0, "OUT.csv", "write the curves over the cycle, mean and deviation of the strides"},
-    {"force", 0, NULL, "write OUT.csv over any file"},
+     "time of heel strike of a result (default: from the folder); of a\nrecording all times of a "
+     "side, left=0.1,1.2 (default: found)"},
+    {"forces", 0, "FILE", "ground forces of a recording (CSV, STO, MOT)"},
+    {"force-columns", 0, "MAP",
+     "columns of each foot: left=NAME,right=NAME (default: by their names)"},
+    {"cycles", 0, "OUT.csv", "write the mean curves over the cycle, with their deviations"},
+    {"force", 0, NULL, "let --cycles overwrite any file"},
     {"mass", 0, "KG", "body mass (default: from the folder)"},
 };
 
 const ambulo__cli_command ambulo__cli_compare = {
     .name = "compare",
     .arguments = "DIR|MOTION [REFERENCE.csv]",
-    .summary = "scores a result, or a person's own motion, against curves of people",
+    .summary = "score a result or a recorded motion against curves of people",
     .description =
-        "Per curve: root mean square error, Pearson's r, share of the cycle within two standard\n"
-        "deviations, peak and its time in percent of the cycle from heel strike to heel strike;\n"
-        "then the landmarks that gait tables quote. Without REFERENCE.csv the people are the "
-        "shipped\n"
-        "ones (models/norms): angles of 24 young adults, moments and forces of normal cadence.\n"
-        "MOTION is a person's own, CSV, STO or MOT with columns of OpenSim or Plug-in Gait; "
-        "several\n"
-        "strides are averaged. Layouts and conventions: docs/compare.md.",
+        "Prints for each curve the root mean square error, Pearson's r, the share of the cycle\n"
+        "within two standard deviations, and the peak with its time in percent of the cycle from\n"
+        "heel strike to heel strike; then the landmarks that gait tables quote. Without\n"
+        "REFERENCE.csv the reference is the bundled data (models/norms): angles of 24 young "
+        "adults,\n"
+        "moments and forces of normal cadence. MOTION is a recording (CSV, STO or MOT) with "
+        "columns\n"
+        "of OpenSim or Plug-in Gait; its strides are averaged. See docs/compare.md.",
     .example = "ambulo compare walk\nambulo compare walk adults.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

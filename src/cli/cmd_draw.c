@@ -37,17 +37,14 @@ static int read_options(const ambulo__cli_input *input, drawing *d) {
   *o = ambulo_picture_options_default();
   if (!ambulo__cli_value(input, "output"))
     return ambulo__cli_usage_error("draw", NULL,
-                                   "no picture is named; expected -o FILE.pdf, .png "
-                                   "or .svg");
+                                   "no output is given; expected -o FILE.pdf, .png or .svg");
   if (alone)
     return ambulo__cli_usage_error("draw", NULL,
-                                   "--%s is for a motion that is drawn anew; expected PROBLEM.yaml "
-                                   "DIR",
-                                   alone);
+                                   "--%s needs the problem; expected PROBLEM.yaml DIR", alone);
   if (strip && curves)
-    return ambulo__cli_usage_error("draw", NULL,
-                                   "--strip and --curves; expected one of them, or "
-                                   "none for both parts");
+    return ambulo__cli_usage_error(
+        "draw", NULL,
+        "--strip and --curves are given; expected one of them, or none for both parts");
   o->parts = strip ? AMBULO_PICTURE_STRIP : curves ? AMBULO_PICTURE_CURVES : AMBULO_PICTURE_ALL;
   o->powers = ambulo__cli_flag(input, "powers");
   o->per_kg = ambulo__cli_flag(input, "per-kg");
@@ -114,30 +111,29 @@ static int run(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option options[] = {
     {"output", 'o', "FILE", "the picture: FILE.pdf, FILE.png or FILE.svg"},
-    {"strip", 0, NULL, "the figures and contacts alone"},
-    {"curves", 0, NULL, "the curves alone"},
-    {"powers", 0, NULL, "a third row of curves: powers"},
+    {"strip", 0, NULL, "only the figures and contacts"},
+    {"curves", 0, NULL, "only the curves"},
+    {"powers", 0, NULL, "add a third row of curves: powers"},
     {"per-kg", 0, NULL, "torques in N m/kg, powers in W/kg, ground reaction in N/kg"},
-    {"percent", 0, NULL, "curves over % of the cycle, each foot's from its own strike"},
-    {"reference", 0, "FILE", "a table of curves (CSV) behind a walk's, in place of models/norms"},
-    {"bare", 0, NULL, "no curves of people"},
+    {"percent", 0, NULL, "curves over % of the cycle of each foot, from its own strike"},
+    {"reference", 0, "FILE", "curves (CSV) behind those of a walk, instead of models/norms"},
+    {"bare", 0, NULL, "without curves of people"},
     {"width", 0, "MM", "width on paper (default: 317.5)"},
     {"dpi", 0, "N", "dots per inch of PNG (default: 300)"},
     {"set", 0, "path=value", "replace a value of the problem file; may be repeated"},
-    {"force", 0, NULL, "write over a file that is there"},
+    {"force", 0, NULL, "overwrite an existing file"},
 };
 
 const ambulo__cli_command ambulo__cli_draw = {
     .name = "draw",
     .arguments = "DIR|PICTURE.svg | PROBLEM.yaml DIR|SOLUTION.yaml",
-    .summary = "pictures for a paper: PDF, PNG or SVG of a motion, its curves",
+    .summary = "draw a motion and its curves as PDF, PNG or SVG",
     .description =
-        "Of one result folder: its gait.svg as PDF or PNG; of another SVG file\n"
-        "the same. Of a problem and its result folder: the motion is drawn "
-        "anew,\n"
-        "with the parts, units and people that options ask for, from the solution's spline "
-        "itself.\n"
-        "PDF and PNG need rsvg-convert (librsvg) on PATH. See docs/guide-page.md.",
+        "With a result folder alone, converts its gait.svg to PDF or PNG; any other SVG likewise.\n"
+        "With a problem and its result folder, draws the motion again from the solution, with the\n"
+        "parts, units and reference curves that the options ask for. PDF and PNG need "
+        "rsvg-convert\n"
+        "(librsvg) on PATH. See docs/guide-page.md.",
     .example = "ambulo solve models/walk_normal.yaml -o on_paper\n"
                "ambulo draw on_paper -o walk.pdf\n"
                "ambulo draw models/walk_normal.yaml on_paper --curves --powers --per-kg --percent "

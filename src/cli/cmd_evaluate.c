@@ -60,16 +60,16 @@ static int run(const ambulo__cli_input *input) {
 static const ambulo__cli_option options[] = {
     {"set", 0, "path=value", "replace a value of the problem file; may be repeated"},
     {"rows", 0, NULL, "list every constraint row by name"},
-    {"json", 0, NULL, "print what summary.json would say"},
+    {"json", 0, NULL, "print what summary.json would hold"},
 };
 
 const ambulo__cli_command ambulo__cli_evaluate = {
     .name = "evaluate",
     .arguments = "PROBLEM.yaml SOLUTION.yaml",
-    .summary = "objective, rows and audit of given control points",
+    .summary = "audit given control points",
     .description =
         "Recomputes everything from the control points in SOLUTION.yaml ('zero': all zero) and\n"
-        "judges the point as if a solver had returned it. Exit code 0 whatever the verdict.",
+        "judges them as if a solver had returned them. Exit code 0 whatever the verdict.",
     .example = "ambulo evaluate models/walk_normal.yaml walk/solution.yaml --json",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

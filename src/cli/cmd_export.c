@@ -24,7 +24,8 @@ static int run(const ambulo__cli_input *input) {
   ambulo_export_options options = ambulo_export_options_default();
   ambulo_inverse_options inverse = ambulo_inverse_options_default();
   if (!read_options(input, &options, &inverse)) return 2;
-  if (!output) return ambulo__cli_usage_error("export", NULL, "-o is missing; expected a name");
+  if (!output)
+    return ambulo__cli_usage_error("export", NULL, "no output is given; expected -o FILE or DIR");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo__cli_body body = {.model = NULL};
   ambulo__cli_forces forces = {.table = NULL};
@@ -47,12 +48,12 @@ static int run(const ambulo__cli_input *input) {
 }
 
 static const ambulo__cli_option options_table[] = {
-    {"format", 0, "opensim|urdf|npz", "what to write"},
-    {"output", 'o', "FILE|DIR", "where to; a folder with opensim and a motion, else a file"},
-    {"force", 0, NULL, "write over any file, or a folder that an export made"},
+    {"format", 0, "opensim|urdf|npz", "the format"},
+    {"output", 'o', "FILE|DIR", "output: a folder for opensim with a motion, else a file"},
+    {"force", 0, NULL, "overwrite any file, or a folder that an export made"},
     {"free-root", 0, NULL,
-     "URDF: leave the root's own coordinates out, for programs that\n"
-     "give it a free joint, as an .npz has it"},
+     "URDF: omit the coordinates of the root, for programs that give it a\nfree joint, as an .npz "
+     "does"},
     AMBULO__CLI_FORCE_OPTIONS,
     {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
     AMBULO__CLI_BODY_OPTIONS,
@@ -61,15 +62,16 @@ static const ambulo__cli_option options_table[] = {
 const ambulo__cli_command ambulo__cli_export = {
     .name = "export",
     .arguments = "MODEL.yaml|PROBLEM.yaml [RESULT_DIR|MOTION]",
-    .summary = "a model and a motion for OpenSim, URDF, Pinocchio, MuJoCo",
+    .summary = "write a model and a motion for OpenSim, URDF, Pinocchio, MuJoCo",
     .description =
-        "Writes the model as other programs read it, and a motion of it: a result folder, or a\n"
-        "table as ambulo inverse takes it.\n"
+        "Writes the model, and a motion of it, for other programs. The motion is a result folder "
+        "or\n"
+        "a table as for ambulo inverse.\n"
         "  opensim  FILE.osim; with a motion a folder: model.osim, motion.mot, grf.mot and\n"
         "           external_loads.xml\n"
         "  urdf     the model alone\n"
-        "  npz      the motion alone: arrays of NumPy in the coordinates of Pinocchio and MuJoCo\n"
-        "Masses, coordinates and their names are the model's. See docs/guide-export.md.",
+        "  npz      the motion alone: NumPy arrays in the coordinates of Pinocchio and MuJoCo\n"
+        "Masses, coordinates and names are those of the model. See docs/guide-export.md.",
     .example = "ambulo export models/walk_normal.yaml walk --format opensim -o walk_opensim\n"
                "ambulo export models/lower_body_21.yaml --format urdf -o body.urdf",
     .options = options_table,

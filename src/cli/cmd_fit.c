@@ -42,7 +42,7 @@ static int show(void *user, const ambulo_fit_progress *p) {
   int seen = ambulo__cli_stops();
   if (seen > 0 && !v->warned && !v->quiet) {
     v->warned = 1;
-    fprintf(stderr, "%sfinishing the running solves; once more to stop now\n",
+    fprintf(stderr, "%sfinishing the running solves; press Ctrl-C again to stop now\n",
             v->terminal ? "\r\033[K" : "");
   }
   return seen > 2 ? 2 : seen;
@@ -65,7 +65,7 @@ static void print_end(const char *directory, const char *report, const ambulo_fi
          end->resumed, end->seconds);
   if (report) printf("written to   %s/fit.json, %s/fitted.yaml\n", directory, directory);
   if (ending == AMBULO_FIT_INTERRUPTED)
-    printf("%s; the same command goes on\n",
+    printf("%s; the same command resumes\n",
            report ? "stopped: the best parameters so far were written"
                   : "stopped before the first solves ended: nothing was written");
 }
@@ -118,28 +118,28 @@ static int run(const ambulo__cli_input *input) {
 }
 
 static const ambulo__cli_option options[] = {
-    {"output", 'o', "DIR", "folder of the fit; one that exists is resumed"},
-    {"jobs", 'j', "N", "processes at once (default: usable processors, as memory allows)"},
+    {"output", 'o', "DIR", "folder of the fit; an existing one is resumed"},
+    {"jobs", 'j', "N", "number of processes (default: usable processors, as memory allows)"},
     {"case-time", 0, "S", "kill a solve after S seconds (default: limits.seconds, 60)"},
-    {"case-memory", 0, "MB", "address space of a solve"},
-    {"grace", 0, "S", "what running solves get after Ctrl-C (default: 30)"},
-    {"force", 0, NULL, "inputs changed: go on, and keep the solves that are the same"},
-    {"dry-run", 0, NULL, "check the files, print what was understood, solve nothing"},
+    {"case-memory", 0, "MB", "limit the address space of a solve"},
+    {"grace", 0, "S", "time that running solves have after Ctrl-C (default: 30)"},
+    {"force", 0, NULL, "if inputs changed, continue and keep the solves that are the same"},
+    {"dry-run", 0, NULL, "check the files and print how they were understood"},
     {"quiet", 'q', NULL, "no progress, no report"},
 };
 
 const ambulo__cli_command ambulo__cli_fit = {
     .name = "fit",
     .arguments = "FIT.yaml",
-    .summary = "fits weights and other numbers to curves of people",
+    .summary = "fit weights and other numbers to curves of people",
     .description =
         "Inverse optimal control: changes the parameters of the fit file until the predicted\n"
-        "motions of all its conditions come as close as they can to their reference curves.\n"
-        "Every solve runs in a process of its own and is kept in the folder, so that the same\n"
-        "command goes on where it was stopped or killed. Ctrl-C finishes the running solves and\n"
-        "keeps the best parameters so far. DIR/fit.json says what was found, DIR/fitted.yaml is\n"
-        "the problem with its numbers. Exit code 0: done; 1: every solve of a condition failed;\n"
-        "3: invalid input, or not what the folder was filled from; 130: stopped.",
+        "motions of all its conditions come as close as possible to their reference curves. Every\n"
+        "solve runs in a process of its own and is kept in the folder, so that the same command\n"
+        "resumes. Ctrl-C finishes the running solves and keeps the best parameters so far. Writes\n"
+        "DIR/fit.json, the result, and DIR/fitted.yaml, the problem with the fitted numbers. Exit\n"
+        "code 0: done; 1: every solve of a condition failed; 3: invalid input, or the folder was\n"
+        "filled from other inputs; 130: interrupted.",
     .example =
         "ambulo fit fit_walk.yaml -o fitted -j 2\nambulo solve fitted/fitted.yaml -o fitted_walk",
     .options = options,

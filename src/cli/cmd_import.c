@@ -35,35 +35,36 @@ static int run(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "write the model there (default: standard output)"},
-    {"force", 0, NULL, "write over what is there"},
-    {"name", 0, "NAME", "name of the model (default: as in the source)"},
+    {"force", 0, NULL, "overwrite an existing file"},
+    {"name", 0, "NAME", "name of the model (default: that of the source)"},
     {"root", 0, "free|fixed",
-     "how the root hangs on the world where the source does not say\n"
-     "(URDF; default: free, unless the root link is named world)"},
+     "how the root of a URDF is attached to the world\n(default: free, unless the root link is "
+     "named world)"},
     {"foot", 0, "FOOT=LINK",
-     "a foot whose corners come from the geometry of a link\n"
-     "(default: links named foot, sole or calcn, else the lowest)"},
-    {"heel", 0, "FOOT=LINK:X,Y,Z", "heel of a foot by hand, m; a second corner behind another ':'"},
-    {"toe", 0, "FOOT=LINK:X,Y,Z", "its toe, likewise"},
+     "take the corners of a foot from the geometry of a link\n(default: links named foot, sole or "
+     "calcn, else the lowest)"},
+    {"heel", 0, "FOOT=LINK:X,Y,Z", "heel of a foot, in m; a second corner follows another ':'"},
+    {"toe", 0, "FOOT=LINK:X,Y,Z", "toe of a foot, likewise"},
     {"pose", 0, "COORDINATE=VALUE",
-     "rad or m: where splines and coupled joints are frozen\n"
-     "(default: the source's default pose)"},
-    {"unlock", 0, NULL, "coordinates that the source locks move all the same"},
-    {"repair-inertia", 0, NULL, "raise moments of inertia that no body can have"},
+     "value, in rad or m, at which splines and coupled joints are held\n(default: the source's "
+     "default pose)"},
+    {"unlock", 0, NULL, "free the coordinates that the source locks"},
+    {"repair-inertia", 0, NULL, "increase moments of inertia that are impossible"},
 };
 
 const ambulo__cli_command ambulo__cli_import = {
     .name = "import",
     .arguments = "MODEL.osim|MODEL.urdf|MODEL.xml",
-    .summary = "a model of OpenSim, URDF or MuJoCo as a model file",
+    .summary = "convert a model of OpenSim, URDF or MuJoCo",
     .description =
         "Reads the skeleton of an OpenSim model (versions 3 and 4), of a URDF or of the rigid "
         "part\n"
-        "of a MuJoCo model (MJCF), and writes a commented model file: links, masses, ranges,\n"
-        "torque limits, feet, left and right. What cannot be carried over is named, with what was\n"
-        "done instead, as a warning and in the file. Nothing is written when the source is wrong.\n"
-        "Feet are links with such a name, or the lowest ones; --foot, --heel and --toe name "
-        "others.\n"
+        "of a MuJoCo model (MJCF), and writes a commented model file: links, masses, ranges, "
+        "torque\n"
+        "limits, feet, left and right. What cannot be carried over is named in a warning and in "
+        "the\n"
+        "file, with what was done instead. Nothing is written if the source is invalid. Feet are\n"
+        "found by their names, else as the lowest links; --foot, --heel and --toe name them.\n"
         "See docs/guide-import.md.",
     .example =
         "ambulo import robot.urdf -o robot.yaml\n"

@@ -230,8 +230,8 @@ static void print_obstacles(const ambulo_problem *problem) {
 
 static void print_bodies(const ambulo_problem *problem) {
   int far = ambulo_problem_pairs_too_far(problem);
-  print_pairs(problem, "capsules that keep apart", ambulo_problem_pairs);
-  print_pairs(problem, "left out, for they overlap in the rest pose",
+  print_pairs(problem, "pairs of capsules that keep apart", ambulo_problem_pairs);
+  print_pairs(problem, "left out, since they overlap in the rest pose",
               ambulo_problem_pairs_left_out);
   if (far) printf("\n%d other pairs are too far apart to meet\n", far);
   print_obstacles(problem);
@@ -322,7 +322,7 @@ static void print_problem(const ambulo_problem *problem) {
   printf("\nobjective\n");
   for (int i = 0; i < ambulo_problem_term_count(problem); i++)
     printf("  %s\n", ambulo_problem_term_name(problem, i));
-  if (ambulo_problem_term_count(problem) == 0) printf("  none: a feasible motion\n");
+  if (ambulo_problem_term_count(problem) == 0) printf("  none (feasibility only)\n");
   print_families(problem);
   print_limits(problem);
   print_bodies(problem);
@@ -353,12 +353,12 @@ static const ambulo__cli_option options[] = {
 const ambulo__cli_command ambulo__cli_info = {
     .name = "info",
     .arguments = "MODEL.yaml|PROBLEM.yaml",
-    .summary = "what was understood: links, masses, schedule, sizes",
-    .description = "Prints links, masses, coordinates with their limits, points, feet, patches and "
-                   "capsules of\n"
-                   "a model; for a problem also the unknowns, rows by family, objective terms, "
-                   "what keeps apart,\n"
-                   "and the contact schedule with its footholds.",
+    .summary = "show how a model or a problem was understood",
+    .description =
+        "Prints links, masses, coordinates with their limits, points, feet, patches and capsules "
+        "of\n"
+        "a model. For a problem also the unknowns, rows by family, terms of the objective, pairs\n"
+        "that keep apart, and the contact schedule with its footholds.",
     .example = "ambulo info models/lower_body_18.yaml\n"
                "ambulo info models/yardstick_36.yaml",
     .options = options,

@@ -66,18 +66,17 @@ static int run(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "write the CSV there (default: standard output)"},
-    {"force", 0, NULL, "write over an input, or a file that ambulo did not write"},
-    {"strict", 0, NULL, "warnings are errors: exit code 3, nothing is written"},
+    {"force", 0, NULL, "overwrite an input, or a file that ambulo did not write"},
+    {"strict", 0, NULL, "treat warnings as errors: exit code 3, nothing is written"},
     AMBULO__CLI_FORCE_OPTIONS,
     {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
     {"lengths", 0, "m|cm|mm", "unit of the motion's lengths (default: m)"},
     {"time", 0, "s|ms", "unit of the motion's times (default: s)"},
-    {"grf-lengths", 0, "m|cm|mm", "of the forces' points, and of their torques in N times it"},
+    {"grf-lengths", 0, "m|cm|mm", "length unit of the forces (default: m)"},
     {"grf-time", 0, "s|ms", "unit of the forces' times (default: s)"},
     {"derivatives", 0, "file|spline",
-     "use the rates and accelerations that the file has (default), or\n"
-     "compute all from its values"},
-    {"filter", 0, "HZ", "zero-lag Butterworth low-pass, order 4, of the motion's values"},
+     "use the rates and accelerations of the file (default), or compute\nthem from its values"},
+    {"filter", 0, "HZ", "zero-lag Butterworth low-pass filter, order 4, of the motion"},
     {"grf-filter", 0, "HZ", "the same for the forces and their moments"},
     AMBULO__CLI_BODY_OPTIONS,
 };
@@ -87,15 +86,17 @@ static const char *const former[] = {"filter-order", "the filter has order 4", N
 const ambulo__cli_command ambulo__cli_inverse = {
     .name = "inverse",
     .arguments = "MODEL.yaml|PROBLEM.yaml MOTION",
-    .summary = "inverse dynamics of a given motion (CSV, STO or MOT)",
+    .summary = "compute the torques of a motion (CSV, STO or MOT)",
     .description =
-        "Columns are named after the model's coordinates; rates and accelerations are those of\n"
-        "the file, or of an interpolating spline where it has none. Writes a CSV with time, q.*,\n"
-        "qd.*, qdd.*, tau.*, zmp.*, the root wrench and the joint powers in SI units and radians.\n"
-        "Forces on the feet are taken off the torques: tau.* of the root is what they leave over;\n"
-        "what hands hold (held.* of a result of solve) is added to them.\n"
-        "A problem in place of the model stands for its body, subject, slope and load. What is\n"
-        "doubtful is said, with the option that mends it. See docs/guide-inverse.md.",
+        "Writes a CSV with time, q.*, qd.*, qdd.*, tau.*, zmp.*, the root wrench and the joint\n"
+        "powers, in SI units and radians. Columns of MOTION are named after the coordinates of "
+        "the\n"
+        "model. Rates and accelerations are read from the file, or come from an interpolating "
+        "spline.\n"
+        "Forces on the feet are subtracted from the torques, so that tau.* of the root is the\n"
+        "residual; what hands hold (held.* of a result of solve) is added. A problem instead of a\n"
+        "model gives its body, subject, slope and load. A warning names the option that corrects\n"
+        "what looks wrong. See docs/guide-inverse.md.",
     .example = "ambulo inverse models/walk_normal.yaml walk/motion.csv -o torques.csv\n"
                "ambulo inverse model.yaml ik.mot --grf grf.mot --filter 6 --grf-filter 6 \\\n"
                "  --force-columns right=ground_force,left=1_ground_force -o torques.csv",

@@ -61,7 +61,7 @@ static int list_models(const ambulo__cli_input *input) {
 }
 
 static const ambulo__cli_option models_options[] = {
-    {"names", 0, NULL, "names alone, one a line"},
+    {"names", 0, NULL, "print names only, one a line"},
 };
 
 const ambulo__cli_command ambulo__cli_models = {
@@ -69,11 +69,10 @@ const ambulo__cli_command ambulo__cli_models = {
     .arguments = "[problem|model|sweep|fit|table]",
     .summary = "list the shipped models and problems",
     .description =
-        "Lists the files that come with the program, each with the first sentence of its own\n"
-        "comment. Every command takes their names from anywhere, with or without .yaml, where no\n"
-        "file here is called so; problems, sweeps and fits find them, too. 'ambulo --models' "
-        "names\n"
-        "their folder; the environment's AMBULO_MODELS, if set, is another one.",
+        "Lists the shipped files with the first sentence of their comments. Every command finds\n"
+        "them by name, with or without .yaml, unless a file here has that name; so do problems,\n"
+        "sweeps and fits that name them. 'ambulo --models' prints their folder. AMBULO_MODELS in\n"
+        "the environment names another folder.",
     .example = "ambulo models\nambulo models sweep\nambulo solve pendulum_swing -o swing",
     .options = models_options,
     .option_count = sizeof models_options / sizeof models_options[0],
@@ -127,7 +126,7 @@ static int list_kinds(int names) {
     printf("  %-10s %-28s %s\n", kinds[i].name, kinds[i].file, line);
     free(text);
   }
-  printf("\nEvery other file of 'ambulo models' will do as well.\n");
+  printf("\nAny name of 'ambulo models' works, too.\n");
   return 0;
 }
 
@@ -186,7 +185,7 @@ static int write_file(const char *path, const char *text, const char *file, int 
   char other[PATH];
   struct stat there;
   if (!force && stat(path, &there) == 0) {
-    ambulo__cli_error("E_IO", "--force replaces it", "%s is there already", path);
+    ambulo__cli_error("E_IO", "--force overwrites it", "%s exists already", path);
     return ambulo_status_exit_code(AMBULO_E_IO);
   }
   ambulo__cli_format(other, sizeof other, "%s.%ld.part", path, (long)getpid());
@@ -233,12 +232,14 @@ static const ambulo__cli_option new_options[] = {
 const ambulo__cli_command ambulo__cli_new = {
     .name = "new",
     .arguments = "[KIND]",
-    .summary = "a commented file to start from: walk, run, device, batch, fit ...",
+    .summary = "write a commented file to start from",
     .description =
-        "Writes a shipped file, whole, with its comments: without changes it solves. KIND is one\n"
-        "of those that 'ambulo new' lists, or any name of 'ambulo models'. The models and\n"
-        "tables it names are found from anywhere; a file of yours that is called so and stands\n"
-        "beside it comes first. In its comments the file is called as -o says, or my.yaml.",
+        "Writes a shipped file with its comments; it solves as it is. KIND is one of the kinds "
+        "that\n"
+        "'ambulo new' lists, or any name that 'ambulo models' lists. The models and tables that "
+        "it\n"
+        "names are found from anywhere; a file of that name beside it takes precedence. Comments\n"
+        "call the file by the name of -o, or my.yaml.",
     .example = "ambulo new\nambulo new walk > my.yaml\nambulo new device -o exoskeleton.yaml",
     .options = new_options,
     .option_count = sizeof new_options / sizeof new_options[0],

@@ -14,9 +14,9 @@ static int read_motion(const ambulo__cli_input *input, ambulo_page_options *opti
   options->motion = ambulo__cli_value(input, "motion");
   if (options->motion && !body)
     return ambulo__cli_usage_error("report", NULL,
-                                   "--motion without --body; expected the model that it moves");
+                                   "--motion needs --body, the model that it moves");
   if (!options->motion && body)
-    return ambulo__cli_usage_error("report", NULL, "--body without --motion");
+    return ambulo__cli_usage_error("report", NULL, "--body needs --motion");
   if (!ambulo__cli_number(input, "from", -1e9, 1e9, &options->from) ||
       !ambulo__cli_number(input, "to", -1e9, 1e9, &options->to))
     return 2;
@@ -75,26 +75,27 @@ static int run(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "the page (default: DIR/report.html)"},
-    {"force", 0, NULL, "write over a file that is no page by ambulo"},
-    {"size", 0, "MB", "how large the page of a batch may be (default: 3)"},
-    {"motion", 0, "FILE", "a measured motion (CSV, STO, MOT), as a ghost beside the result"},
-    {"body", 0, "FILE", "the model, or the problem, of that motion; a shipped name will do"},
-    {"from", 0, "S", "begin with this time of the motion (default: its first)"},
-    {"to", 0, "S", "end with this time of it (default: its last)"},
+    {"force", 0, NULL, "overwrite a file that is not a page by ambulo"},
+    {"size", 0, "MB", "maximal size of the page of a batch (default: 3)"},
+    {"motion", 0, "FILE", "show a measured motion (CSV, STO, MOT) as a ghost"},
+    {"body", 0, "FILE", "the model or problem that this motion belongs to"},
+    {"from", 0, "S", "first time of the motion to show (default: its start)"},
+    {"to", 0, "S", "last time of the motion to show (default: its end)"},
     AMBULO__CLI_BODY_OPTIONS,
 };
 
 const ambulo__cli_command ambulo__cli_report = {
     .name = "report",
     .arguments = "DIR [DIR...]",
-    .summary = "makes a page to watch: the motion in space, curves, verdict",
+    .summary = "make an HTML page of a result or a batch",
     .description =
-        "One HTML file that a browser opens from the disk, without a network: the body in motion,\n"
-        "to turn, play and scrub; curves that follow it, beside people's; verdict, audit,\n"
-        "sensitivities and objective in plain words. Further result folders stand beside the "
-        "first\n"
-        "one as ghosts. Of a batch folder: a table of its cases, a plot of any two columns, its\n"
-        "front, in which a click shows the motion of a case. See docs/guide-page.md.",
+        "Writes one HTML file that opens in a browser without a network: the body in motion, to\n"
+        "turn, play and scrub; curves beside those of people; verdict, audit, sensitivities and\n"
+        "objective in words. Further result folders appear as ghosts beside the first. The page "
+        "of\n"
+        "a batch folder has a table of its cases, a plot of any two columns, and its front; a "
+        "click\n"
+        "shows the motion of a case. See docs/guide-page.md.",
     .example = "ambulo report walk\n"
                "ambulo report walks",
     .options = options_table,

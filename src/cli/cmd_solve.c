@@ -224,13 +224,13 @@ static const ambulo__cli_option options[] = {
      "replace a value of the problem file, e.g. time.intervals=36;\nmay be repeated"},
     {"start", 0, "zero|FILE", "start from zero (default) or from a solution.yaml"},
     {"repeat", 0, "mirrored|periodic",
-     "the start is one step, which its mirror image follows, or one\nstride: repeat it over the "
-     "duration"},
-    {"time-limit", 0, "S", "stop after S seconds with the best point; 0: no limit"},
-    {"samples", 0, "n", "times in motion.csv (default: the time nodes)"},
+     "repeat the start over the duration: it is one step, followed by its\nmirror image, or one "
+     "stride"},
+    {"time-limit", 0, "S", "stop after S seconds and keep the best point; 0: no limit"},
+    {"samples", 0, "n", "number of times in motion.csv (default: the time nodes)"},
     {"force", 0, NULL, "replace an existing result folder"},
     {"quiet", 'q', NULL, "no progress, no summary"},
-    {"sensitivities", 0, NULL, "print what each number of the problem costs, dearest first"},
+    {"sensitivities", 0, NULL, "print how the objective changes with each number of the problem"},
     {"json", 0, NULL, "print summary.json instead of the summary"},
 };
 
@@ -241,8 +241,8 @@ const ambulo__cli_command ambulo__cli_solve = {
     .description =
         "Solves the problem and writes summary.json, motion.csv, motion.sto, solution.yaml,\n"
         "gait.svg and scene.json into a new folder, all or nothing. The verdict comes from an\n"
-        "audit of the point, not from the solver. Exit code 0: feasible or optimal; 1: the result\n"
-        "was written but is not a solution, and says so.",
+        "independent audit of the solution. Exit code 0: feasible or optimal; 1: the result was\n"
+        "written, but it is not a solution and says so.",
     .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
                "--start walk/solution.yaml -o finer\n"

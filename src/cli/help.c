@@ -82,12 +82,12 @@ void ambulo__cli_print_overview(const ambulo__cli_command *const *commands, int 
   printf("ambulo %s - predicts human motion by optimization\n\n", ambulo_version());
   printf("usage: ambulo COMMAND ARGUMENTS [options]\n\ncommands:\n");
   for (int i = 0; i < count; i++) printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
-  printf(
-      "\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts;\n"
-      "'ambulo --models' names the folder of the shipped models and problems, which are found by\n"
-      "their names from anywhere. 'ambulo help --man COMMAND' and 'ambulo help --completion "
-      "SHELL'\n"
-      "print the source of a manual page and a script for bash, zsh or fish.\n");
+  printf("\n'ambulo COMMAND --help' explains a command, 'ambulo --version' names the libraries in "
+         "use,\n"
+         "'ambulo --models' prints the folder of the shipped files, which are found by name from\n"
+         "anywhere. 'ambulo help --man COMMAND' prints a manual page, 'ambulo help --completion "
+         "SHELL'\n"
+         "a script for bash, zsh or fish.\n");
   printf("exit codes:\n");
   for (int i = 0; i < EXIT_CODES; i++)
     printf("  %-10s %s\n", exit_codes[i].code, exit_codes[i].meaning);
@@ -202,20 +202,20 @@ void ambulo__cli_print_man_overview(const ambulo__cli_command *const *commands, 
   print_title("ambulo", "predicts human motion by optimization");
   fputs(".SH SYNOPSIS\n.B ambulo\n.I COMMAND ARGUMENTS\n[\\fIoptions\\fR]\n.SH DESCRIPTION\n",
         stdout);
-  print_prose("Finds a whole motion of a skeleton that does a task, obeys the equations of motion, "
-              "keeps feet on the ground and costs as little effort as possible. Each command has a "
-              "page:");
+  print_prose("Finds the motion of a skeleton that performs a task, obeys the equations of motion, "
+              "keeps the feet on the ground and minimizes effort. Each command has a page:");
   for (int i = 0; i < count; i++) {
     printf(".TP\n.BR ambulo\\-%s (1)\n", commands[i]->name);
     print_prose(commands[i]->summary);
   }
-  fputs(".SH OPTIONS\n.TP\n.B \\-\\-version\nnames the parts\n.TP\n.B \\-\\-models\n"
-        "names the folder of the shipped models and problems\n.TP\n.B \\-\\-help\nlists the "
+  fputs(".SH OPTIONS\n.TP\n.B \\-\\-version\nnames the libraries in use\n.TP\n.B \\-\\-models\n"
+        "prints the folder of the shipped models and problems\n.TP\n.B \\-\\-help\nlists the "
         "commands\n",
         stdout);
   print_exit_codes();
   fputs(".SH ENVIRONMENT\n.TP\n.B AMBULO_MODELS\n", stdout);
-  print_prose("Where shipped files are looked for by their names (default: those of the program).");
+  print_prose(
+      "The folder in which shipped files are found by name (default: that of the program).");
   fputs(".SH SEE ALSO\n", stdout);
   print_formats();
 }

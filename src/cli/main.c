@@ -34,8 +34,8 @@ static int print_models(void) {
     puts(folder);
     return 0;
   }
-  ambulo__cli_error("E_IO", "'make install' puts them beside it, in share/ambulo/models",
-                    "the shipped models are not where the program is");
+  ambulo__cli_error("E_IO", "'make install' installs them in share/ambulo/models",
+                    "the shipped models are not found beside the program");
   return ambulo_status_exit_code(AMBULO_E_IO);
 }
 

@@ -94,8 +94,8 @@ int ambulo__cli_find_file(const char *word, char *buffer, size_t size) {
                          (ambulo__cli_shipped_file(name, buffer, size) && is_file(buffer)))) {
     return 0;
   }
-  fprintf(stderr, "ambulo: note: '%s' is not here: %s%s is taken\n", word,
-          here ? "" : "the shipped ", buffer);
+  fprintf(stderr, "ambulo: note: '%s' is not here; using %s%s\n", word, here ? "" : "the shipped ",
+          buffer);
   return 1;
 }
 
@@ -106,9 +106,8 @@ void ambulo__cli_shipped_hint(const char *file) {
   ambulo__cli_format(path, sizeof path, "%s/%s", folder, name);
   if (is_there(path))
     fprintf(stderr,
-            "  hint: '%s' is one of the shipped files; cp -r \"$(ambulo --models)\" . copies them "
-            "to the folder 'models' here,\n        and without a folder before it the name alone "
-            "is found from anywhere\n",
+            "  hint: '%s' is a shipped file: its name without a folder is found from anywhere;\n   "
+            "     cp -r \"$(ambulo --models)\" . copies all shipped files to the folder 'models'\n",
             name);
 }
 
@@ -230,9 +229,9 @@ int ambulo__cli_catalogue(ambulo__cli_entry **entries) {
   int there = ambulo__cli_shipped_folder(path, sizeof path);
   DIR *folder = there ? opendir(path) : NULL;
   if (!folder) {
-    ambulo__cli_error("E_IO", "'make install' puts them beside it, in share/ambulo/models",
+    ambulo__cli_error("E_IO", "'make install' installs them in share/ambulo/models",
                       there ? "the folder of the shipped models cannot be read: %s"
-                            : "the shipped models are not where the program is",
+                            : "the shipped models are not found beside the program",
                       there ? strerror(errno) : "");
     return -1;
   }

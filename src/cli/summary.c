@@ -9,7 +9,7 @@ static void print_objective(const ambulo_problem *problem, const ambulo_result *
   int count = ambulo_problem_term_count(problem);
   const double *terms = ambulo_result_terms(result);
   if (count == 0) {
-    printf("objective    none: a feasible motion was asked for\n");
+    printf("objective    none (feasibility only)\n");
     return;
   }
   printf("objective    %.8g\n", ambulo_result_objective(result));
@@ -114,14 +114,14 @@ void ambulo__cli_print_last(const ambulo_result *result) {
   if (dense && dense->summary[0]) printf("%s\n", dense->summary);
 }
 
-/* "starts  8, of which 7 hold every row: 0.0640 (5 times, gone on from), 0.0712 (2 times)" */
+/* "starts  8, of which 7 hold every row: 0.0640 (5 times, continued), 0.0712 (2 times)" */
 static void print_starts(const ambulo_starts *starts) {
   if (!starts) return;
   printf("starts       %d, of which %d hold every row on %d intervals", starts->count,
          starts->solved, starts->intervals);
   for (int b = 0; b < starts->basin_count; b++)
     printf("%s %.6g (%d times%s)", b ? "," : ":", starts->basins[b].objective,
-           starts->basins[b].found, b ? "" : ", gone on from");
+           starts->basins[b].found, b ? "" : ", continued");
   printf("\n");
 }
 

@@ -53,7 +53,7 @@ static int noted(const ambulo_diagnostics *list, const char *name, const char *p
 void ambulo__note_shipped(ambulo_diagnostics *diagnostics, ambulo__place place, const char *name,
                           const char *path) {
   if (!noted(diagnostics, name, path))
-    ambulo__note(diagnostics, place, "'%s' is not here: the shipped %s is taken", name, path);
+    ambulo__note(diagnostics, place, "'%s' is not here; using the shipped %s", name, path);
 }
 
 ambulo_status ambulo__named_file(const ambulo_allocator *a, const char *file, const char *name,
