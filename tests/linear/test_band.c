@@ -2,6 +2,8 @@
 #include "linear/band.h"
 #include "support/engine_fixture.h"
 
+#include <math.h>
+
 enum { N = 71, KD = 6, STRIDE = 8 }; /* several blocks of columns */
 
 typedef struct banded {
@@ -68,29 +70,25 @@ static void factor_solves_the_dense_system(void **state) {
   ambulo__pool_clear(&m.pool);
 }
 
-/* with the kernels of this machine, and with LAPACK */
 static void many_right_hand_sides_are_single_ones(void **state) {
   (void)state;
   enum { WIDTH = 16 };
-  for (int kernels = 0; kernels < 2; kernels++) {
-    banded m;
-    unsigned seed = 3;
-    fill(&m, 4);
-    double *many = ambulo__pool_doubles(&m.pool, (size_t)ambulo__whole_tiles(N) * WIDTH), one[N];
-    double before[N][WIDTH];
-    if (!kernels) m.band.kernels = NULL;
-    for (int i = 0; i < N; i++) {
-      for (int k = 0; k < WIDTH; k++) many[i * WIDTH + k] = before[i][k] = random_number(&seed);
-    }
-    assert_int_equal(ambulo__band_factor(&m.band), 0);
-    ambulo__band_forward_many(&m.band, WIDTH, many);
-    for (int k = 0; k < WIDTH; k++) {
-      for (int i = 0; i < N; i++) one[i] = before[i][k];
-      ambulo__band_forward(&m.band, one);
-      for (int i = 0; i < N; i++) assert_close(many[i * WIDTH + k], one[i], 1e-12);
-    }
-    ambulo__pool_clear(&m.pool);
+  banded m;
+  unsigned seed = 3;
+  fill(&m, 4);
+  double *many = ambulo__pool_doubles(&m.pool, (size_t)ambulo__whole_tiles(N) * WIDTH), one[N];
+  double before[N][WIDTH];
+  for (int i = 0; i < N; i++) {
+    for (int k = 0; k < WIDTH; k++) many[i * WIDTH + k] = before[i][k] = random_number(&seed);
   }
+  assert_int_equal(ambulo__band_factor(&m.band), 0);
+  ambulo__band_forward_many(&m.band, WIDTH, many);
+  for (int k = 0; k < WIDTH; k++) {
+    for (int i = 0; i < N; i++) one[i] = before[i][k];
+    ambulo__band_forward(&m.band, one);
+    for (int i = 0; i < N; i++) assert_close(many[i * WIDTH + k], one[i], 1e-12);
+  }
+  ambulo__pool_clear(&m.pool);
 }
 
 static void a_right_hand_side_that_overflows_leaves_nothing_behind(void **state) {
@@ -194,20 +192,91 @@ static void a_copied_factor_solves(void **state) {
   ambulo__pool_clear(&m.pool);
 }
 
-/* on the diagonal, with the kernels of this machine, and with LAPACK */
-static void what_is_not_finite_is_no_factor(void **state) {
+/* on the diagonal */
+static void what_is_no_number_is_no_factor(void **state) {
   (void)state;
-  static const double bad[] = {NAN, INFINITY};
-  for (int run = 0; run < 4; run++) {
-    banded m;
-    fill(&m, 9);
-    if (run % 2) m.band.kernels = NULL;
-    m.band.a[(size_t)(N - 1) * (size_t)m.band.ld] = bad[run / 2];
-    double largest = ambulo__band_largest(&m.band);
-    assert_true(run / 2 ? largest == INFINITY : isnan(largest));
-    if (run == 0 || run % 2) assert_int_equal(ambulo__band_factor(&m.band), 1);
-    ambulo__pool_clear(&m.pool);
+  banded m;
+  fill(&m, 9);
+  double *last = &m.band.a[(size_t)(N - 1) * (size_t)m.band.ld];
+  *last = INFINITY;
+  assert_true(ambulo__band_largest(&m.band) == INFINITY);
+  *last = NAN;
+  assert_true(isnan(ambulo__band_largest(&m.band)));
+  assert_int_equal(ambulo__band_factor(&m.band), 1);
+  ambulo__pool_clear(&m.pool);
+}
+
+/* --------------- Gram matrices on a motion against P' G'G P, with each instruction set */
+
+enum { ORDERS = AMBULO__ORDERS, SPANS = 6 };
+
+static double weight(int order, int c) {
+  return cos(1.0 + 2.0 * order + 0.7 * c);
+}
+
+/* nothing in some limbs, as rows of one leg have */
+static double slope(int row, int column) {
+  return (row + column / 5) % 3 ? sin(1.0 + 0.7 * row + 0.3 * column) : 0.0;
+}
+
+/* a row of G P */
+static double mapped(int d, int row, int c, int i) {
+  double sum = 0.0;
+  for (int k = 0; k < ORDERS; k++) sum += weight(k, c) * slope(row, k * d + i);
+  return sum;
+}
+
+/* on unknowns from 3 on of a band that has more, twice: what is there stays */
+static void equals_dense(int d, int span, int count) {
+  ambulo__pool pool;
+  ambulo__band band;
+  ambulo__spread spread;
+  double b[ORDERS][SPANS];
+  const double *const weights[] = {b[0], b[1], b[2]};
+  ambulo__pool_init(&pool, NULL);
+  int width = span * d, n = width + 9, most = span > ORDERS ? span : ORDERS,
+      stride = ambulo__whole_tiles(most * d) + 8;
+  double *g = ambulo__pool_doubles(&pool, (size_t)(count * stride));
+  assert_int_equal(ambulo__band_create(&pool, n, width + 2, &band), AMBULO_OK);
+  assert_int_equal(ambulo__spread_create(&pool, d, &spread), AMBULO_OK);
+  for (int k = 0; k < ORDERS; k++) {
+    for (int c = 0; c < span; c++) b[k][c] = weight(k, c);
   }
+  for (int times = 1; times <= 2; times++) {
+    for (int r = 0; r < count; r++) {
+      for (int j = 0; j < ORDERS * d; j++) g[r * stride + j] = slope(r, j);
+    }
+    ambulo__spread_rows(&spread, count, stride, g, span, weights, 3, &band);
+    for (int j = 0; j < n; j++) {
+      for (int e = 0; e < band.ld; e++) {
+        int column = j - 3, row = column + e, inside = column >= 0 && row < width;
+        double want = 0.0;
+        for (int r = 0; inside && r < count; r++)
+          want += times * mapped(d, r, row / d, row % d) * mapped(d, r, column / d, column % d);
+        assert_close(band.a[(size_t)j * (size_t)band.ld + (size_t)e], want, inside ? 1e-12 : 0.0);
+      }
+    }
+  }
+  ambulo__pool_clear(&pool);
+}
+
+/* fewer and more control points than orders; coordinates that fill tiles, or not; few rows and
+ * many, none */
+static void rows_are_spread(void **state) {
+  (void)state;
+  static const char *const sets[] = {"avx512", "avx2", "baseline"};
+  for (int s = 0; s < 3; s++) {
+    setenv("AMBULO_ISA", sets[s], 1);
+    for (int span = 1; span <= SPANS; span++) {
+      for (int d = 1; d <= 18; d++) {
+        equals_dense(d, span, 1 + d);
+        equals_dense(d, span, 30 + d);
+      }
+    }
+    equals_dense(45, 5, 80);
+    equals_dense(45, 4, 0);
+  }
+  unsetenv("AMBULO_ISA");
 }
 
 int main(void) {
@@ -221,7 +290,8 @@ int main(void) {
       cmocka_unit_test(indefinite_matrix_is_refused),
       cmocka_unit_test(sizes_are_what_is_stored),
       cmocka_unit_test(a_copied_factor_solves),
-      cmocka_unit_test(what_is_not_finite_is_no_factor),
+      cmocka_unit_test(what_is_no_number_is_no_factor),
+      cmocka_unit_test(rows_are_spread),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The kernels of each instruction set against LAPACK and plain sums, on sizes that fill no tile. */
 #include "mechanics/kernels.h"
 #include "ambulo/mechanics.h"
+#include "base/lapack.h"
 #include "linear/band.h"
 #include "support/engine_fixture.h"
 
@@ -52,57 +53,88 @@ static void profile_is_the_matrix(const ambulo__band *band, int stair) {
   }
 }
 
+/* y = A x and y = L' x from the band, column by column */
+static void plain_products(const ambulo__band *band, const double *x, double *product,
+                           double *upper) {
+  memset(product, 0, (size_t)band->n * sizeof *product);
+  for (int j = 0; j < band->n; j++) {
+    const double *column = band->a + (size_t)j * (size_t)band->ld;
+    product[j] += column[0] * x[j];
+    upper[j] = column[0] * x[j];
+    for (int k = 1; k <= band->kd && j + k < band->n; k++) {
+      product[j] += column[k] * x[j + k];
+      product[j + k] += column[k] * x[j];
+      upper[j] += column[k] * x[j + k];
+    }
+  }
+}
+
+static void solve_by_lapack(const ambulo__band *l, const char *trans, double *x, int step) {
+  dtbsv_("L", trans, "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+}
+
+typedef struct pair {
+  ambulo__band ours, theirs;
+  double *x, *y, *wing, *other; /* [n], [n]; [n rounded up][WIDTH] */
+} pair;
+
+/* solves with factors that are there */
+static void solves_are_lapacks(const pair *p) {
+  const size_t n = (size_t)p->ours.n;
+  for (size_t i = 0; i < n; i++) p->x[i] = p->y[i] = cos((double)i);
+  ambulo__band_forward(&p->ours, p->x);
+  solve_by_lapack(&p->theirs, "N", p->y, 1);
+  for (size_t i = 0; i < n; i++) assert_close(p->x[i], p->y[i], 1e-13);
+  ambulo__band_backward(&p->ours, p->x);
+  solve_by_lapack(&p->theirs, "T", p->y, 1);
+  for (size_t i = 0; i < n; i++) assert_close(p->x[i], p->y[i], 1e-13);
+  for (size_t zeros = 0; zeros < n; zeros += 1 + n / 3) { /* rows of them before the first */
+    for (size_t i = 0; i < n * WIDTH; i++)
+      p->wing[i] = p->other[i] = i < zeros * WIDTH ? 0.0 : cos(0.1 * (double)i);
+    ambulo__band_forward_many(&p->ours, WIDTH, p->wing);
+    for (int k = 0; k < WIDTH; k++) solve_by_lapack(&p->theirs, "N", p->other + k, WIDTH);
+    for (size_t i = 0; i < n * WIDTH; i++) assert_close(p->wing[i], p->other[i], 1e-13);
+  }
+  plain_products(&p->theirs, p->y, p->wing, p->other);
+  ambulo__band_upper_multiply(&p->ours, p->x);
+  for (size_t i = 0; i < n; i++) assert_close(p->x[i], p->other[i], 1e-13);
+}
+
 static void equals_lapack(const ambulo__band_kernels *set, sizes size) {
   ambulo__pool pool;
-  ambulo__band ours, theirs;
+  pair p;
+  int info;
   ambulo__pool_init(&pool, NULL);
-  assert_int_equal(ambulo__band_create(&pool, size.n, size.kd, &ours), AMBULO_OK);
-  assert_int_equal(ambulo__band_create(&pool, size.n, size.kd, &theirs), AMBULO_OK);
-  size_t n = (size_t)size.n, tiles = (n + AMBULO__TILE - 1) / AMBULO__TILE;
-  double *x = ambulo__pool_doubles(&pool, n), *y = ambulo__pool_doubles(&pool, n);
-  double *wing = ambulo__pool_doubles(&pool, tiles * AMBULO__TILE * WIDTH);
-  double *other = ambulo__pool_doubles(&pool, tiles * AMBULO__TILE * WIDTH);
-  ours.kernels = set;
-  ours.corner = ambulo__pool_doubles(&pool, tiles * AMBULO__CORNER);
-  ours.below = ambulo__pool_ints(&pool, tiles);
-  theirs.kernels = NULL;
-  fill(&ours, size.stair);
-  fill(&theirs, size.stair);
+  assert_int_equal(ambulo__band_create(&pool, size.n, size.kd, &p.ours), AMBULO_OK);
+  assert_int_equal(ambulo__band_create(&pool, size.n, size.kd, &p.theirs), AMBULO_OK);
+  size_t n = (size_t)size.n, padded = (size_t)ambulo__whole_tiles(size.n);
+  p.x = ambulo__pool_doubles(&pool, n);
+  p.y = ambulo__pool_doubles(&pool, n);
+  p.wing = ambulo__pool_doubles(&pool, padded * WIDTH);
+  p.other = ambulo__pool_doubles(&pool, padded * WIDTH);
+  p.ours.kernels = set;
   for (int twice = 0; twice < 2; twice++) { /* the second time over the first one's remains */
-    assert_int_equal(ambulo__band_factor(&ours), 0);
-    assert_int_equal(ambulo__band_factor(&theirs), 0);
-    profile_is_the_matrix(&ours, size.stair);
-    for (size_t i = 0; i < n * (size_t)ours.ld; i++) assert_close(ours.a[i], theirs.a[i], 1e-14);
-    for (size_t i = 0; i < n; i++) x[i] = y[i] = cos((double)i);
-    ambulo__band_forward(&ours, x);
-    ambulo__band_forward(&theirs, y);
-    for (size_t i = 0; i < n; i++) assert_close(x[i], y[i], 1e-13);
-    ambulo__band_backward(&ours, x);
-    ambulo__band_backward(&theirs, y);
-    for (size_t i = 0; i < n; i++) assert_close(x[i], y[i], 1e-13);
-    for (size_t zeros = 0; zeros < n; zeros += 1 + n / 3) { /* rows of them before the first */
-      for (size_t i = 0; i < n * WIDTH; i++)
-        wing[i] = other[i] = i < zeros * WIDTH ? 0.0 : cos(0.1 * (double)i);
-      ambulo__band_forward_many(&ours, WIDTH, wing);
-      ambulo__band_forward_many(&theirs, WIDTH, other);
-      for (size_t i = 0; i < n * WIDTH; i++) assert_close(wing[i], other[i], 1e-13);
-    }
-    ambulo__band_upper_multiply(&ours, x);
-    ambulo__band_upper_multiply(&theirs, y);
-    for (size_t i = 0; i < n; i++) assert_close(x[i], y[i], 1e-13);
-    ambulo__band_clear(&ours);
-    ambulo__band_clear(&theirs);
-    fill(&ours, size.stair);
-    fill(&theirs, size.stair);
-    ambulo__band_multiply(&ours, x, wing);
-    ambulo__band_multiply(&theirs, y, other);
-    for (size_t i = 0; i < n; i++) assert_close(wing[i], other[i], 1e-13);
+    ambulo__band_clear(&p.ours);
+    ambulo__band_clear(&p.theirs);
+    fill(&p.ours, size.stair);
+    fill(&p.theirs, size.stair);
+    for (size_t i = 0; i < n; i++) p.y[i] = sin((double)i);
+    plain_products(&p.theirs, p.y, p.other, p.x);
+    ambulo__band_multiply(&p.ours, p.y, p.wing);
+    for (size_t i = 0; i < n; i++) assert_close(p.wing[i], p.other[i], 1e-13);
+    assert_int_equal(ambulo__band_factor(&p.ours), 0);
+    dpbtrf_("L", &p.theirs.n, &p.theirs.kd, p.theirs.a, &p.theirs.ld, &info);
+    assert_int_equal(info, 0);
+    profile_is_the_matrix(&p.ours, size.stair);
+    for (size_t i = 0; i < n * (size_t)p.ours.ld; i++)
+      assert_close(p.ours.a[i], p.theirs.a[i], 1e-14);
+    solves_are_lapacks(&p);
   }
-  ours.a[(n - 1) * (size_t)ours.ld] = -1.0;
-  assert_int_equal(ambulo__band_factor(&ours), 1);
-  fill(&ours, size.stair);
-  ours.a[0] = NAN;
-  assert_int_equal(ambulo__band_factor(&ours), 1);
+  p.ours.a[(n - 1) * (size_t)p.ours.ld] = -1.0;
+  assert_int_equal(ambulo__band_factor(&p.ours), 1);
+  fill(&p.ours, size.stair);
+  p.ours.a[0] = NAN;
+  assert_int_equal(ambulo__band_factor(&p.ours), 1);
   ambulo__pool_clear(&pool);
 }
 
@@ -227,6 +259,11 @@ static void test_set(const ambulo__band_kernels *set, int runs) {
   test_gram(set->add_sparse_gram);
 }
 
+static void baseline_equals_lapack(void **state) {
+  (void)state;
+  test_set(&ambulo__band_kernels_baseline, 1);
+}
+
 static void avx2_equals_lapack(void **state) {
   (void)state;
 #if defined(__x86_64__)
@@ -249,14 +286,14 @@ static void avx512_equals_lapack(void **state) {
 static void the_environment_chooses(void **state) {
   (void)state;
   setenv("AMBULO_ISA", "baseline", 1);
-  assert_null(ambulo__band_kernels_select());
+  assert_ptr_equal(ambulo__band_kernels_select(), &ambulo__band_kernels_baseline);
   unsetenv("AMBULO_ISA");
-  const ambulo__band_kernels *set = ambulo__band_kernels_select();
-  if (set) assert_string_equal(set->name, ambulo__instruction_set());
+  assert_string_equal(ambulo__band_kernels_select()->name, ambulo__instruction_set());
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(baseline_equals_lapack),
       cmocka_unit_test(avx2_equals_lapack),
       cmocka_unit_test(avx512_equals_lapack),
       cmocka_unit_test(the_environment_chooses),

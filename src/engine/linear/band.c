@@ -1,27 +1,34 @@
 /* linear/band.c - see band.h. */
 #include "linear/band.h"
-#include "base/lapack.h"
 #include "base/arithmetic.h"
+#include "mechanics/kernels.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK = 24 }; /* columns that ambulo__band_forward_many takes at once */
+enum { FEW_ROWS = 24 }; /* fewer are mapped one by one: walks of 21 coordinates 3 % quicker */
+
+/* by the rule of mechanics/dispatch.c; a set without functions was not compiled in */
+const ambulo__band_kernels *ambulo__band_kernels_select(void) {
+#if defined(__x86_64__)
+  const char *name = ambulo__instruction_set();
+  if (!strcmp(name, "avx512") && ambulo__band_kernels_avx512.factor)
+    return &ambulo__band_kernels_avx512;
+  if (!strcmp(name, "avx2") && ambulo__band_kernels_avx2.factor) return &ambulo__band_kernels_avx2;
+#endif
+  return &ambulo__band_kernels_baseline;
+}
 
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
+  size_t padded = (size_t)ambulo__whole_tiles(n), tiles = padded / AMBULO__TILE;
   band->n = n;
   band->kd = kd < n ? kd : n - 1;
   band->kernels = ambulo__band_kernels_select();
-  band->ld = ambulo__whole_tiles(band->kd + (band->kernels ? AMBULO__TILE : BLOCK)) + 1;
-  band->a = ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) * (size_t)band->ld);
-  band->corner = NULL;
-  band->below = NULL;
-  if (band->kernels) {
-    size_t tiles = (size_t)ambulo__whole_tiles(n) / AMBULO__TILE;
-    band->corner = ambulo__pool_doubles(pool, tiles * AMBULO__CORNER);
-    band->below = ambulo__pool_ints(pool, tiles);
-  }
-  band->work = ambulo__pool_doubles(pool, 2 * (size_t)ambulo__whole_tiles(n));
+  band->ld = ambulo__whole_tiles(band->kd + AMBULO__TILE) + 1;
+  band->a = ambulo__pool_doubles(pool, padded * (size_t)band->ld);
+  band->corner = ambulo__pool_doubles(pool, tiles * AMBULO__CORNER);
+  band->below = ambulo__pool_ints(pool, tiles);
+  band->work = ambulo__pool_doubles(pool, 2 * padded);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -40,7 +47,6 @@ void ambulo__band_copy(const ambulo__band *from, ambulo__band *to) {
 void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to) {
   size_t tiles = (size_t)ambulo__whole_tiles(to->n) / AMBULO__TILE;
   ambulo__band_copy(from, to);
-  if (!to->kernels) return;
   memcpy(to->corner, from->corner, tiles * AMBULO__CORNER * sizeof *to->corner);
   memcpy(to->below, from->below, tiles * sizeof *to->below);
 }
@@ -52,13 +58,8 @@ void ambulo__band_add_diagonal(ambulo__band *band, double value) {
 void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, int stride,
                            const double *g) {
   if (count == 0) return;
-  double one = 1.0, *a = band->a + (size_t)first * (size_t)band->ld;
-  int ld = band->ld - 1;
-  if (band->kernels) {
-    band->kernels->add_gram(count, width, stride, g, band->ld, a);
-  } else { /* g is [count][stride] row-major, that is stride x count column-major */
-    dsyrk_("L", "N", &width, &count, &one, g, &stride, &one, a, &ld);
-  }
+  band->kernels->add_gram(count, width, stride, g, band->ld,
+                          band->a + (size_t)first * (size_t)band->ld);
 }
 
 void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride, double weight,
@@ -119,31 +120,8 @@ double ambulo__band_largest(const ambulo__band *band) {
   return largest;
 }
 
-/* four sums side by side, since one waits for itself */
-static double dot(int count, const double *restrict a, const double *restrict b) {
-  double sum[4] = {0.0};
-  int k = 0;
-  for (; k + 4 <= count; k += 4) {
-    for (int l = 0; l < 4; l++) sum[l] += a[k + l] * b[k + l];
-  }
-  for (; k < count; k++) sum[0] += a[k] * b[k];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-/* elements of column j on and below the diagonal */
-static int height(const ambulo__band *band, int j) {
-  return band->n - j <= band->kd ? band->n - j : band->kd + 1;
-}
-
 int ambulo__band_factor(ambulo__band *band) {
-  int info = 0;
-  if (band->kernels)
-    return band->kernels->factor(band->n, band->kd, band->ld, band->a, band->below, band->corner);
-  dpbtrf_("L", &band->n, &band->kd, band->a, &band->ld, &info);
-  /* its pivots are asked to be at most zero, which NaN is not */
-  for (int j = 0; j < band->n && info == 0; j++)
-    info = !isfinite(band->a[(size_t)j * (size_t)band->ld]);
-  return info != 0;
+  return band->kernels->factor(band->n, band->kd, band->ld, band->a, band->below, band->corner);
 }
 
 /* Zeros in the padding, each time: an infinite right-hand side leaves NaN there. */
@@ -153,76 +131,80 @@ static void take_right_side(const ambulo__band *l, const double *x) {
   memset(l->work + n, 0, padding * sizeof *x);
 }
 
-/* not by dsbmv and dtbmv, which start threads for matrices of this size */
 void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y) {
-  size_t padded = (size_t)ambulo__whole_tiles(band->n);
-  if (band->kernels) {
-    take_right_side(band, x);
-    band->kernels->multiply(band->n, band->kd, band->ld, band->a, band->work, band->work + padded);
-    memcpy(y, band->work + padded, (size_t)band->n * sizeof *y);
-    return;
-  }
-  memset(y, 0, (size_t)band->n * sizeof *y);
-  for (int j = 0; j < band->n; j++) {
-    const double *column = band->a + (size_t)j * (size_t)band->ld;
-    int rows = height(band, j);
-    y[j] += dot(rows, column, x + j);
-    add_scaled(rows - 1, x[j], column + 1, y + j + 1);
-  }
+  double *product = band->work + ambulo__whole_tiles(band->n);
+  take_right_side(band, x);
+  band->kernels->multiply(band->n, band->kd, band->ld, band->a, band->work, product);
+  memcpy(y, product, (size_t)band->n * sizeof *y);
 }
 
 void ambulo__band_forward(const ambulo__band *l, double *x) {
-  size_t bytes = (size_t)l->n * sizeof *x;
-  int step = 1;
-  if (l->kernels) {
-    take_right_side(l, x);
-    l->kernels->forward(l->n, l->ld, l->a, l->below, l->corner, l->work);
-    memcpy(x, l->work, bytes);
-  } else {
-    dtbsv_("L", "N", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
-  }
+  take_right_side(l, x);
+  l->kernels->forward(l->n, l->ld, l->a, l->below, l->corner, l->work);
+  memcpy(x, l->work, (size_t)l->n * sizeof *x);
 }
 
 void ambulo__band_backward(const ambulo__band *l, double *x) {
-  size_t bytes = (size_t)l->n * sizeof *x;
-  int step = 1;
-  if (l->kernels) {
-    take_right_side(l, x);
-    l->kernels->backward(l->n, l->ld, l->a, l->below, l->corner, l->work);
-    memcpy(x, l->work, bytes);
-  } else {
-    dtbsv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
-  }
+  take_right_side(l, x);
+  l->kernels->backward(l->n, l->ld, l->a, l->below, l->corner, l->work);
+  memcpy(x, l->work, (size_t)l->n * sizeof *x);
 }
 
 void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
-  if (l->kernels) {
-    take_right_side(l, x);
-    l->kernels->upper_multiply(l->n, l->ld, l->a, l->below, l->work);
-    memcpy(x, l->work, (size_t)l->n * sizeof *x);
-    return;
-  }
-  for (int j = 0; j < l->n; j++) x[j] = dot(height(l, j), l->a + (size_t)j * (size_t)l->ld, x + j);
+  take_right_side(l, x);
+  l->kernels->upper_multiply(l->n, l->ld, l->a, l->below, l->work);
+  memcpy(x, l->work, (size_t)l->n * sizeof *x);
 }
 
-/* Block columns: X_1 = L_11^-1 X_1, X_2 -= L_21 X_1, the blocks read from the band with
- * leading dimension ld - 1; to LAPACK, which counts by columns, X is its transpose. */
 void ambulo__band_forward_many(const ambulo__band *l, int width, double *x) {
-  if (l->kernels) {
-    l->kernels->forward_many(l->n, l->ld, l->a, l->below, l->corner, width, x);
+  l->kernels->forward_many(l->n, l->ld, l->a, l->below, l->corner, width, x);
+}
+
+/* -------------------------------------------------- spread over control points */
+
+ambulo_status ambulo__spread_create(ambulo__pool *pool, int d, ambulo__spread *s) {
+  s->d = d;
+  s->sums = ambulo__pool_doubles(pool, (size_t)(AMBULO__ORDERS * d));
+  return ambulo__band_create(pool, AMBULO__ORDERS * d, AMBULO__ORDERS * d - 1, &s->square);
+}
+
+/* the triangle above the diagonal from the one below, by tiles, which stay in the cache */
+static void fill_upper(int n, size_t step, double *m) {
+  enum { TILE = AMBULO__TILE };
+  for (int column = 0; column < n; column += TILE) {
+    int end = column + TILE < n ? column + TILE : n;
+    for (int row = column; row < n; row++) {
+      for (int j = column; j < end && j < row; j++)
+        m[(size_t)row * step + (size_t)j] = m[(size_t)j * step + (size_t)row];
+    }
+  }
+}
+
+/* a row g of G to one of G P, zero up to whole tiles */
+static void map_row(int d, int span, const double *const b[AMBULO__ORDERS], double *restrict copy,
+                    double *restrict g) {
+  const int motion = AMBULO__ORDERS * d, most = span * d > motion ? span * d : motion;
+  memcpy(copy, g, (size_t)motion * sizeof *copy);
+  memset(g, 0, (size_t)ambulo__whole_tiles(most) * sizeof *g);
+  for (int c = 0; c < span; c++) {
+    for (int i = 0; i < d; i++)
+      g[c * d + i] = b[0][c] * copy[i] + b[1][c] * copy[d + i] + b[2][c] * copy[2 * d + i];
+  }
+}
+
+void ambulo__spread_rows(ambulo__spread *s, int count, int stride, double *g, int span,
+                         const double *const b[AMBULO__ORDERS], int first, ambulo__band *band) {
+  if (count == 0) return;
+  if (span <= AMBULO__ORDERS || count < FEW_ROWS) {
+    for (int k = 0; k < count; k++) map_row(s->d, span, b, s->sums, g + (size_t)k * (size_t)stride);
+    ambulo__band_add_rows(band, first, span * s->d, count, stride, g);
     return;
   }
-  double one = 1.0, minus = -1.0;
-  int ld = l->ld - 1;
-  int block = ld - l->kd < BLOCK ? ld - l->kd : BLOCK; /* below it, ld - 1 reads the right rows */
-  for (int j = 0; j < l->n; j += block) {
-    int columns = l->n - j < block ? l->n - j : block;
-    int below = l->n - j - columns < l->kd ? l->n - j - columns : l->kd;
-    const double *corner = l->a + (size_t)j * (size_t)l->ld;
-    double *rows = x + (size_t)j * (size_t)width;
-    dtrsm_("R", "L", "T", "N", &width, &columns, &one, corner, &ld, rows, &width);
-    if (below == 0) continue;
-    dgemm_("N", "T", &width, &below, &columns, &minus, rows, &width, corner + columns, &ld, &one,
-           rows + (size_t)columns * (size_t)width, &width);
-  }
+  ambulo__band *square = &s->square;
+  size_t step = (size_t)square->ld - 1;
+  double *a = band->a + (size_t)first * (size_t)band->ld;
+  ambulo__band_clear(square);
+  band->kernels->add_sparse_gram(count, square->n, stride, g, square->ld, square->a);
+  fill_upper(square->n, step, square->a);
+  band->kernels->spread(s->d, span, b, square->a, step, s->sums, band->ld, a);
 }

@@ -7,8 +7,22 @@
  * rows of a[] below the band stay zero, so that rectangles that reach past it can be read;
  * ld - 1 is a multiple of 8, so that aligned tiles can (band_kernels.h).
  *
- * Reading order: band.h, sparse_rows.h, band.c, band_kernels.h, band_source.h, tile_source.h;
- * spread.h, gram_source.h; border.h, kkt.h, kkt.c; mixing.h.
+ * A node's motion is y = P x: the values, rates and accelerations of d coordinates, from `span`
+ * control points,
+ *
+ *     y[k d + i] = sum_c b_k[c] x[c d + i],   k = 0, 1, 2
+ *
+ * and rows G [count][3 d] on y are G P on x. What they add to a metric is P' M P with M = G'G,
+ *
+ *     block (c, c') of d x d  +=  sum_kk' b_k[c] b_k'[c'] M_kk'
+ *
+ * G'G first takes 9 of the 25 products that (G P)'(G P) takes where splines of degree 4 have five
+ * control points, and the rows keep the zeros of the limbs that they do not concern side by side;
+ * to spread it costs as much as some 17 rows of G P (45 coordinates). With few rows, or no more
+ * control points than orders, there is nothing to win: then it is the rows that become G P.
+ *
+ * Reading order: band.h, sparse_rows.h, row_blocks.h, band.c, band_kernels.h, band_source.h,
+ * product_source.h; border.h, kkt.h, kkt.c; mixing.h.
  */
 #ifndef AMBULO_LINEAR_BAND_H
 #define AMBULO_LINEAR_BAND_H
@@ -18,9 +32,9 @@
 
 typedef struct ambulo__band {
   int n, kd, ld;
-  const ambulo__band_kernels *kernels; /* NULL: LAPACK */
+  const ambulo__band_kernels *kernels; /* of this processor */
   double *a;                           /* [n rounded up to 8][ld] */
-  double *corner;                      /* with kernels: inverses of the factor's corners, */
+  double *corner;                      /* inverses of the factor's corners, */
   int *below;                          /* and its tiles below them (band_kernels.h) */
   double *work;                        /* [2][n rounded up to 8]: a right-hand side and a product */
 } ambulo__band;
@@ -64,5 +78,17 @@ void ambulo__band_forward(const ambulo__band *factor, double *x);
 void ambulo__band_backward(const ambulo__band *factor, double *x);
 void ambulo__band_upper_multiply(const ambulo__band *factor, double *x);
 void ambulo__band_forward_many(const ambulo__band *factor, int width, double *x);
+
+typedef struct ambulo__spread {
+  int d;
+  ambulo__band square; /* M, both triangles, with leading dimension ld - 1 */
+  double *sums;        /* [3 d] */
+} ambulo__spread;
+
+ambulo_status ambulo__spread_create(ambulo__pool *pool, int d, ambulo__spread *spread);
+/* Adds P' G'G P on the span d unknowns from `first` on; rows as for ambulo__band_add_rows, with
+ * room for whole tiles of 3 d and of span d numbers, which are used up. */
+void ambulo__spread_rows(ambulo__spread *spread, int count, int stride, double *g, int span,
+                         const double *const b[AMBULO__ORDERS], int first, ambulo__band *band);
 
 #endif

@@ -1,4 +1,4 @@
-/* linear/band_kernels.h - the inner loops of band.c, one set per wide instruction set.
+/* linear/band_kernels.h - the inner loops of band.c, one set for each instruction set.
  *
  * Matrices as in band.h, cut into tiles of 8 x 8: a is 64-byte aligned, ld - 1 a multiple of 8
  * and at least kd + 8, and there is room for n rounded up to 8 columns; what lies outside of
@@ -13,6 +13,7 @@
 #include "mechanics/kernels.h"
 #include <stddef.h>
 
+enum { AMBULO__ORDERS = 3 }; /* of a motion: values, rates, accelerations */
 enum { AMBULO__TILE = 8, AMBULO__CORNER = 2 * AMBULO__TILE * AMBULO__TILE };
 
 typedef struct ambulo__band_kernels {
@@ -35,9 +36,9 @@ typedef struct ambulo__band_kernels {
   /* a += G'G for the first `width` unknowns of `a` in band storage, which need not be aligned, of
    * `count` rows G, aligned, `stride` whole tiles apart and zero from `width` on */
   void (*add_gram)(int count, int width, int stride, const double *g, int ld, double *a);
-  /* the same, faster where half of G is zero (gram_source.h) */
+  /* the same, faster where half of G is zero (product_source.h) */
   void (*add_sparse_gram)(int count, int width, int stride, const double *g, int ld, double *a);
-  /* a += P'MP, m [3 d][step] with leading dimension step (spread.h); sums [3 d] is scratch */
+  /* a += P'MP, m [3 d][step] with leading dimension step (band.h); sums [3 d] is scratch */
   void (*spread)(int d, int span, const double *const b[3], const double *m, size_t step,
                  double *sums, int ld, double *a);
   /* of X [n][8], aligned: y = W'X, y [width][8], aligned; X -= W y */
@@ -53,13 +54,14 @@ static inline int ambulo__whole_tiles(int count) {
   return (count + AMBULO__TILE - 1) / AMBULO__TILE * AMBULO__TILE;
 }
 
-/* A set without functions was not compiled in. */
+/* A set without functions was not compiled in. The baseline is there on every processor. */
+extern const ambulo__band_kernels ambulo__band_kernels_baseline;
 #if defined(__x86_64__)
 extern const ambulo__band_kernels ambulo__band_kernels_avx2;
 extern const ambulo__band_kernels ambulo__band_kernels_avx512;
 #endif
 
-/* The set for the instruction set that the mechanics run on; NULL: LAPACK's routines. */
+/* The set for the instruction set that the mechanics run on. */
 const ambulo__band_kernels *ambulo__band_kernels_select(void);
 
 #endif

@@ -11,8 +11,8 @@
  *     C = A - sum_K L_IK L_JK'  for its corner (I = J) and strips of rows below,
  *     L_JJ of the corner,  L_IJ = C L_JJ^-T
  *
- * so that a tile is read once and written once, and its sums stay in registers (tile_source.h). The
- * columns of a tile are aligned, since ld - 1 is a multiple of 8.
+ * so that a tile is read once and written once, and its sums stay in registers (product_source.h).
+ * The columns of a tile are aligned, since ld - 1 is a multiple of 8.
  *
  * Solves: what waits in a triangular solve is the chain through the corners. Their inverses
  * (8 x 8, kept by columns and by rows) make each link one product.
@@ -23,16 +23,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "linear/tile_source.h"
-
-static int blocks_of(int n) {
-  return (n + T - 1) / T;
-}
-
-/* the element in this row and column; those of one column follow each other */
-static inline size_t place(int row, int column, size_t step) {
-  return (size_t)column * step + (size_t)row;
-}
+#include "linear/product_source.h"
 
 /* ---------------------------------------------------------------- profile */
 
@@ -306,10 +297,6 @@ static void forward_many(int n, int ld, const double *a, const int *below, const
     if (v < width) forward_block(1, block, from, (size_t)ld - 1, a, by_rows, (size_t)width, x + v);
   }
 }
-
-#include "linear/gram_source.h"
-#include "linear/spread_source.h"
-#include "linear/wing_source.h"
 
 const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_NAME,
                                                    .factor = factor,

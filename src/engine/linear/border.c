@@ -1,6 +1,5 @@
 /* linear/border.c - see border.h. */
 #include "linear/border.h"
-#include "base/lapack.h"
 
 #include <string.h>
 
@@ -47,20 +46,10 @@ int ambulo__border_factor(ambulo__border *border, const ambulo__band *factor, co
 /* (P.3) the Schur complement's part of a pass */
 void ambulo__border_eliminate(ambulo__border *border, const double *b, double *z) {
   if (border->count == 0) return;
-  double one = 1.0, zero = 0.0, minus = -1.0, *rest = border->rest;
-  int width = border->width, n = border->n, step = 1;
-  const ambulo__band_kernels *kernels = border->kernels;
-  if (kernels) {
-    kernels->gather(n, width, border->wing, z, rest);
-  } else {
-    dgemv_("N", &width, &n, &one, border->wing, &width, z, &step, &zero, rest, &step);
-  }
+  double *rest = border->rest;
+  border->kernels->gather(border->n, border->width, border->wing, z, rest);
   for (int i = 0; b && i < border->count; i++) rest[i] -= b[i];
   ambulo__band_forward(&border->schur, rest);
   ambulo__band_backward(&border->schur, rest);
-  if (kernels) {
-    kernels->scatter(n, width, border->wing, rest, z);
-  } else {
-    dgemv_("T", &width, &n, &minus, border->wing, &width, rest, &step, &one, z, &step);
-  }
+  border->kernels->scatter(border->n, border->width, border->wing, rest, z);
 }

@@ -18,7 +18,7 @@
 typedef struct ambulo__border {
   const ambulo__sparse_rows *rows;
   int n, count, width;                 /* width: count rounded up to whole tiles */
-  const ambulo__band_kernels *kernels; /* NULL: LAPACK */
+  const ambulo__band_kernels *kernels; /* of this processor */
   double *wing;                        /* [n rounded up][width]: W */
   double *rest;                        /* [width]: m */
   ambulo__band schur;                  /* a full triangle: Cholesky factor of W'W + S */

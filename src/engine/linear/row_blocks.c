@@ -154,14 +154,6 @@ static void form_motion(const ambulo__row_blocks *b, int node, const double *x) 
   }
 }
 
-/* y = W'x, W [n][width] */
-static void gather(int n, int width, const double *w, const double *x, double *restrict y) {
-  for (int v = 0; v < width; v++) y[v] = 0.0;
-  for (int e = 0; e < n; e++, w += width) {
-    for (int v = 0; v < width; v++) y[v] += w[v] * x[e];
-  }
-}
-
 /* the motion of the block's coordinates */
 static const double *part_of_motion(const ambulo__row_blocks *b, const ambulo__row_block *block) {
   const int d = b->problem->coordinates;
@@ -177,11 +169,7 @@ static void multiply_block(const ambulo__row_blocks *b, const ambulo__row_block 
                            const double *scale, double *out) {
   const int *member = b->member + block->first, entries = block->orders * block->support;
   const double *motion = part_of_motion(b, block);
-  if (b->kernels) {
-    b->kernels->gather(entries, block->width, block->slope, motion, b->product);
-  } else {
-    gather(entries, block->width, block->slope, motion, b->product);
-  }
+  b->kernels->gather(entries, block->width, block->slope, motion, b->product);
   for (int j = 0; j < block->count; j++) out[member[j]] = scale[member[j]] * b->product[j];
 }
 

@@ -39,7 +39,7 @@ typedef struct ambulo__row_block {
 
 typedef struct ambulo__row_blocks {
   const ambulo_problem *problem;
-  const ambulo__band_kernels *kernels; /* NULL: none for this processor */
+  const ambulo__band_kernels *kernels; /* of this processor */
   int count;
   ambulo__row_block *block; /* ascending nodes */
   int *member;              /* rows, block by block */

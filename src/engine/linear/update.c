@@ -1,6 +1,5 @@
 /* linear/update.c - see update.h. */
 #include "linear/update.h"
-#include "base/lapack.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,30 +50,6 @@ void ambulo__update_row(ambulo__update *u, const ambulo__sparse_rows *rows, int 
   u->rows = rows;
 }
 
-/* A'B of columns side by side, A [n][width], B [n][T]: [width][T] */
-static void multiply(const ambulo__border *border, int n, int width, const double *a,
-                     const double *b, double *product) {
-  int columns = T;
-  double one = 1.0, zero = 0.0;
-  if (border->kernels) {
-    border->kernels->cross(n, width, a, b, product);
-  } else {
-    dgemm_("N", "T", &columns, &width, &n, &one, b, &columns, a, &width, &zero, product, &columns);
-  }
-}
-
-/* B -= A X, X [width][T] */
-static void subtract(const ambulo__border *border, int n, int width, const double *a,
-                     const double *x, double *b) {
-  int columns = T;
-  double one = 1.0, minus = -1.0;
-  if (border->kernels) {
-    border->kernels->subtract(n, width, a, x, b);
-  } else {
-    dgemm_("N", "N", &columns, &n, &width, &minus, x, &columns, a, &width, &one, b, &columns);
-  }
-}
-
 /* Z and T of a tile from its rows */
 static void solve_tile(ambulo__update *u, int tile) {
   const ambulo__sparse_rows *rows = u->rows;
@@ -90,21 +65,21 @@ static void solve_tile(ambulo__update *u, int tile) {
   }
   ambulo__band_forward_many(u->factor, T, wing);
   if (border->count == 0) return;
-  multiply(border, u->n, border->width, border->wing, wing, cross);
+  border->kernels->cross(u->n, border->width, border->wing, wing, cross);
   for (int c = 0; c < T; c++) {
     for (int i = 0; i < border->count; i++) border->rest[i] = cross[i * T + c];
     ambulo__band_forward(&border->schur, border->rest);
     ambulo__band_backward(&border->schur, border->rest);
     for (int i = 0; i < border->count; i++) cross[i * T + c] = border->rest[i];
   }
-  subtract(border, u->n, border->width, border->wing, cross, wing);
+  border->kernels->subtract(u->n, border->width, border->wing, cross, wing);
 }
 
 /* Z'Z of a tile with those before it and with itself */
 static void multiply_tile(ambulo__update *u, int tile) {
   double product[T * T] __attribute__((aligned(64)));
   for (int other = 0; other <= tile; other++) {
-    multiply(u->border, u->n, T, wing_of(u, tile), wing_of(u, other), product);
+    u->border->kernels->cross(u->n, T, wing_of(u, tile), wing_of(u, other), product);
     for (int i = 0; i < T; i++)
       memcpy(u->products + (tile * T + i) * ROOM + other * T, product + i * T, T * sizeof *product);
   }
@@ -168,36 +143,13 @@ static void solve_complement(const ambulo__update *u, double *y) {
   }
 }
 
-/* Z'z and z -= Z y of one tile */
-static void gather(const ambulo__update *u, int tile, const double *z, double *y) {
-  const double *wing = wing_of(u, tile);
-  if (u->border->kernels) {
-    u->border->kernels->gather(u->n, T, wing, z, y);
-    return;
-  }
-  for (int c = 0; c < T; c++) y[c] = 0.0;
-  for (int k = 0; k < u->n; k++) {
-    for (int c = 0; c < T; c++) y[c] += wing[k * T + c] * z[k];
-  }
-}
-
-static void scatter(const ambulo__update *u, int tile, const double *y, double *z) {
-  const double *wing = wing_of(u, tile);
-  if (u->border->kernels) {
-    u->border->kernels->scatter(u->n, T, wing, y, z);
-    return;
-  }
-  for (int k = 0; k < u->n; k++) {
-    for (int c = 0; c < T; c++) z[k] -= wing[k * T + c] * y[c];
-  }
-}
-
 /* (P.14) the changed rows' part of a pass */
 void ambulo__update_eliminate(ambulo__update *u, const double *b, double *z) {
   const ambulo__border *border = u->border;
   int tiles = (u->taken + T - 1) / T;
   double *y = u->rest;
-  for (int tile = 0; tile < tiles; tile++) gather(u, tile, z, y + tile * T);
+  for (int tile = 0; tile < tiles; tile++)
+    border->kernels->gather(u->n, T, wing_of(u, tile), z, y + tile * T);
   for (int c = 0; c < u->taken; c++) {
     const double *cross = cross_of(u, c / T) + c % T;
     for (int i = 0; b && i < border->count; i++) y[c] += cross[i * T] * b[i];
@@ -206,7 +158,7 @@ void ambulo__update_eliminate(ambulo__update *u, const double *b, double *z) {
   for (int c = u->taken; c < tiles * T; c++) y[c] = 0.0;
   solve_complement(u, y);
   for (int tile = 0; tile < tiles; tile++) {
-    scatter(u, tile, y + tile * T, z);
+    border->kernels->scatter(u->n, T, wing_of(u, tile), y + tile * T, z);
     const double *cross = cross_of(u, tile);
     for (int i = 0; i < border->count; i++) {
       for (int c = 0; c < T; c++) border->rest[i] -= cross[i * T + c] * y[tile * T + c];

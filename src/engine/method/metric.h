@@ -10,7 +10,7 @@
 #ifndef AMBULO_METHOD_METRIC_H
 #define AMBULO_METHOD_METRIC_H
 
-#include "linear/spread.h"
+#include "linear/band.h"
 #include "method/channel_slopes.h"
 #include "method/joint_squares.h"
 
