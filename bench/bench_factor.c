@@ -20,7 +20,7 @@
 enum { repeats = 15, span = 4 };
 
 typedef struct times {
-  double factor, solve, wing, node;
+  double factor, solve, border, node;
 } times;
 
 /* Diagonally dominant. */
@@ -44,27 +44,27 @@ static void fill_rows(int d, double *rows) {
   }
 }
 
-/* wing [order rounded up][3 d, in tiles]; rows [2 d][3 d, in tiles] */
-static void measure_many(ambulo__band *band, int d, double *wing, double *rows, times *spent) {
+/* columns [order rounded up][3 d, in tiles]; rows [2 d][3 d, in tiles] */
+static void measure_many(ambulo__band *band, int d, double *columns, double *rows, times *spent) {
   static const double weight[span] = {0.04, 0.46, 0.46, 0.04};
   static const double *const b[] = {weight, weight, weight};
   ambulo__pool pool;
   ambulo__spread spread;
   int width = ambulo__whole_tiles(3 * d);
-  for (int k = 0; k < band->n * width; k++) wing[k] = sin(k);
+  for (int k = 0; k < band->n * width; k++) columns[k] = sin(k);
   fill_rows(d, rows);
   ambulo__pool_init(&pool, NULL);
   if (ambulo__spread_create(&pool, d, &spread)) exit(1);
   double start = bench_seconds();
-  ambulo__band_forward_many(band, width, wing);
+  ambulo__band_forward_many(band, width, columns);
   double solved = bench_seconds();
   ambulo__spread_rows(&spread, 2 * d, width, rows, span, b, 0, band);
   spent->node = bench_seconds() - solved;
-  spent->wing = solved - start;
+  spent->border = solved - start;
   ambulo__pool_clear(&pool);
 }
 
-static times measure(ambulo__band *band, int d, double *right, double *wing, double *rows) {
+static times measure(ambulo__band *band, int d, double *right, double *columns, double *rows) {
   times spent;
   fill(band, right);
   double start = bench_seconds();
@@ -74,7 +74,7 @@ static times measure(ambulo__band *band, int d, double *right, double *wing, dou
   ambulo__band_backward(band, right);
   spent.solve = bench_seconds() - factored;
   spent.factor = factored - start;
-  measure_many(band, d, wing, rows, &spent);
+  measure_many(band, d, columns, rows, &spent);
   return spent;
 }
 
@@ -104,7 +104,7 @@ static double median_of(const times *run, size_t offset) {
 
 static times median_times(const times *run) {
   return (times){median_of(run, offsetof(times, factor)), median_of(run, offsetof(times, solve)),
-                 median_of(run, offsetof(times, wing)), median_of(run, offsetof(times, node))};
+                 median_of(run, offsetof(times, border)), median_of(run, offsetof(times, node))};
 }
 
 static void put(bench_table *table, const char *what, int d, int intervals, const char *unit,
@@ -121,13 +121,13 @@ static times report(bench_table *table, int d, int intervals) {
   ambulo__pool_init(&pool, NULL);
   int order = d * (intervals + 3), kd = 4 * d - 1, width = ambulo__whole_tiles(3 * d);
   double *right = ambulo__pool_doubles(&pool, (size_t)order);
-  double *wing = ambulo__pool_doubles(&pool, (size_t)(ambulo__whole_tiles(order) * width));
+  double *columns = ambulo__pool_doubles(&pool, (size_t)(ambulo__whole_tiles(order) * width));
   double *rows = ambulo__pool_doubles(&pool, (size_t)(2 * d * width));
   for (int k = 0; k < 2; k++) {
-    if (!right || !wing || !rows || ambulo__band_create(&pool, order, kd, &band[k])) exit(1);
+    if (!right || !columns || !rows || ambulo__band_create(&pool, order, kd, &band[k])) exit(1);
   }
   for (int t = 0; t < repeats; t++) {
-    run[0][t] = measure(&band[0], d, right, wing, rows);
+    run[0][t] = measure(&band[0], d, right, columns, rows);
     run[1][t] = measure_lapack(&band[1], right);
   }
   ambulo__pool_clear(&pool);
@@ -135,7 +135,7 @@ static times report(bench_table *table, int d, int intervals) {
   put(table, "factor of", d, intervals, "us", 1e6 * own.factor);
   put(table, "rate of", d, intervals, "Gflop/s", 1e-9 * order * (double)kd * kd / own.factor);
   put(table, "solve with", d, intervals, "us", 1e6 * own.solve);
-  put(table, "border of", d, intervals, "us", 1e6 * own.wing);
+  put(table, "border of", d, intervals, "us", 1e6 * own.border);
   put(table, "node of", d, intervals, "us", 1e6 * own.node);
   printf("%-44s factor %.2f x, solve %.2f x\n", "  LAPACK", lapack.factor / own.factor,
          lapack.solve / own.solve);

@@ -75,7 +75,7 @@ static void solve_by_lapack(const ambulo__band *l, const char *trans, double *x,
 
 typedef struct pair {
   ambulo__band ours, theirs;
-  double *x, *y, *wing, *other; /* [n], [n]; [n rounded up][WIDTH] */
+  double *x, *y, *columns, *other; /* [n], [n]; [n rounded up][WIDTH] */
 } pair;
 
 /* solves with factors that are there */
@@ -90,12 +90,12 @@ static void solves_are_lapacks(const pair *p) {
   for (size_t i = 0; i < n; i++) assert_close(p->x[i], p->y[i], 1e-13);
   for (size_t zeros = 0; zeros < n; zeros += 1 + n / 3) { /* rows of them before the first */
     for (size_t i = 0; i < n * WIDTH; i++)
-      p->wing[i] = p->other[i] = i < zeros * WIDTH ? 0.0 : cos(0.1 * (double)i);
-    ambulo__band_forward_many(&p->ours, WIDTH, p->wing);
+      p->columns[i] = p->other[i] = i < zeros * WIDTH ? 0.0 : cos(0.1 * (double)i);
+    ambulo__band_forward_many(&p->ours, WIDTH, p->columns);
     for (int k = 0; k < WIDTH; k++) solve_by_lapack(&p->theirs, "N", p->other + k, WIDTH);
-    for (size_t i = 0; i < n * WIDTH; i++) assert_close(p->wing[i], p->other[i], 1e-13);
+    for (size_t i = 0; i < n * WIDTH; i++) assert_close(p->columns[i], p->other[i], 1e-13);
   }
-  plain_products(&p->theirs, p->y, p->wing, p->other);
+  plain_products(&p->theirs, p->y, p->columns, p->other);
   ambulo__band_upper_multiply(&p->ours, p->x);
   for (size_t i = 0; i < n; i++) assert_close(p->x[i], p->other[i], 1e-13);
 }
@@ -110,7 +110,7 @@ static void equals_lapack(const ambulo__band_kernels *set, sizes size) {
   size_t n = (size_t)size.n, padded = (size_t)ambulo__whole_tiles(size.n);
   p.x = ambulo__pool_doubles(&pool, n);
   p.y = ambulo__pool_doubles(&pool, n);
-  p.wing = ambulo__pool_doubles(&pool, padded * WIDTH);
+  p.columns = ambulo__pool_doubles(&pool, padded * WIDTH);
   p.other = ambulo__pool_doubles(&pool, padded * WIDTH);
   p.ours.kernels = set;
   for (int twice = 0; twice < 2; twice++) { /* the second time over the first one's remains */
@@ -120,8 +120,8 @@ static void equals_lapack(const ambulo__band_kernels *set, sizes size) {
     fill(&p.theirs, size.stair);
     for (size_t i = 0; i < n; i++) p.y[i] = sin((double)i);
     plain_products(&p.theirs, p.y, p.other, p.x);
-    ambulo__band_multiply(&p.ours, p.y, p.wing);
-    for (size_t i = 0; i < n; i++) assert_close(p.wing[i], p.other[i], 1e-13);
+    ambulo__band_multiply(&p.ours, p.y, p.columns);
+    for (size_t i = 0; i < n; i++) assert_close(p.columns[i], p.other[i], 1e-13);
     assert_int_equal(ambulo__band_factor(&p.ours), 0);
     dpbtrf_("L", &p.theirs.n, &p.theirs.kd, p.theirs.a, &p.theirs.ld, &info);
     assert_int_equal(info, 0);

@@ -12,7 +12,7 @@
  * make s small: S is then raised for the next factorization.
  *
  * Border rows by their Schur complement (border.h); rows that H gains or loses, a few at a time, by
- * theirs (update.h).
+ * theirs (border.h).
  *
  * Every pass moves d by M^-1 J'(...) only, that is within H^-1 range(J', C'): retractions
  * built from single passes stay on the same curved surface as exact solves would

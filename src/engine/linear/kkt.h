@@ -9,7 +9,6 @@
 #define AMBULO_LINEAR_KKT_H
 
 #include "linear/border.h"
-#include "linear/update.h"
 
 typedef struct ambulo__kkt {
   int n, equalities;

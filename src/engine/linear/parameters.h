@@ -30,7 +30,7 @@
 /* Of the border's largest diagonal element: keeps border rows solvable that others imply. T: kkt (a
  * hundredfold). */
 #define AMBULO__BORDER_SHIFT 1e-14
-/* Columns of an update (update.h) before M is factored anew, in tiles of 8. x: free. 0 (a factor
+/* Columns of an update (border.h) before M is factored anew, in tiles of 8. x: free. 0 (a factor
  * for each change): walks +5 to +11 % CPU, whole bodies +16 to +38 %. T: update. */
 #define AMBULO__UPDATE_TILES 4
 /* Of the trace of the normal equations of mixing (mixing.c). 0: free, +2 % evaluations. T: mixing

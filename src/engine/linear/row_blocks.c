@@ -1,6 +1,7 @@
 /* linear/row_blocks.c - see row_blocks.h. */
 #include "linear/row_blocks.h"
 #include "base/arithmetic.h"
+#include "linear/sparse_rows.h"
 
 #include <string.h>
 
@@ -81,12 +82,46 @@ static void list_limits(ambulo__row_blocks *b, int rows) {
   b->limit_first[nodes] = total;
 }
 
-ambulo_status ambulo__row_blocks_create(const ambulo_problem *p, int rows,
-                                        const ambulo__row_shape *shape, ambulo__pool *pool,
+/* how much of the motion of its host a row needs */
+static int orders_of(const ambulo_problem *p, const ambulo__table_row *row) {
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
+  int channel[AMBULO__CURVED_CHANNELS], most = 1;
+  if (row->user >= 0 && !curved) return 3;
+  int count = curved ? ambulo__curved_channels(curved, channel) : row->term_count;
+  for (int k = 0; k < count; k++) {
+    int orders = ambulo__channel_orders(p, curved ? channel[k] : term[k].channel);
+    if (orders > most) most = orders;
+  }
+  return most;
+}
+
+/* others than limits on one number, of linear rows, are left to their gradients, which are short */
+static ambulo__row_shape shape_of(const ambulo__sparse_rows *s, int i) {
+  const ambulo_problem *p = s->problem;
+  const ambulo__table_row *row = &p->table.rows[s->row[i]];
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  ambulo__row_shape shape = {.host = s->host[i], .entry = -1};
+  if (s->support[i] == 0) return shape;
+  shape.support = s->support[i];
+  shape.column = s->column + s->start[i];
+  if (!s->constant[i]) {
+    shape.orders = orders_of(p, row);
+  } else if (row->term_count == 1) {
+    shape.entry = term->channel;
+    shape.coefficient = term->coefficient;
+  }
+  return shape;
+}
+
+ambulo_status ambulo__row_blocks_create(const ambulo__sparse_rows *s, ambulo__pool *pool,
                                         ambulo__row_blocks *b) {
+  const ambulo_problem *p = s->problem;
+  const int rows = s->count;
   size_t n = (size_t)rows, d = (size_t)p->coordinates;
   size_t kinds = KINDS * (size_t)p->nodes, most = n < kinds ? n : kinds;
-  *b = (ambulo__row_blocks){.problem = p, .shape = shape, .kernels = ambulo__band_kernels_select()};
+  *b = (ambulo__row_blocks){.problem = p, .kernels = ambulo__band_kernels_select()};
+  b->shape = ambulo__pool_blocks(pool, n, sizeof *b->shape);
   int *block_at = ambulo__pool_ints(pool, kinds), widest = 0;
   b->block = ambulo__pool_blocks(pool, most, sizeof *b->block);
   b->member = ambulo__pool_ints(pool, n);
@@ -97,6 +132,7 @@ ambulo_status ambulo__row_blocks_create(const ambulo_problem *p, int rows,
   b->motion = ambulo__pool_doubles(pool, 3 * d);
   b->part = ambulo__pool_doubles(pool, 3 * d);
   if (pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < rows; i++) b->shape[i] = shape_of(s, i);
   lay_out(b, rows, block_at);
   list_members(b, rows, block_at);
   list_limits(b, rows);

@@ -46,13 +46,13 @@ typedef struct ambulo__row_blocks {
   int *block_of, *place_of; /* [rows]: -1: in none */
   int *limit_first;         /* [nodes + 1]: the rows of one number of each node, in `limit` */
   int *limit;
-  const ambulo__row_shape *shape;  /* [rows] */
+  ambulo__row_shape *shape;        /* [rows] */
   double *motion, *part, *product; /* [3 d], [3 d] of a block, [widest] */
 } ambulo__row_blocks;
 
-/* shape [rows] is kept. E_MEMORY. */
-ambulo_status ambulo__row_blocks_create(const ambulo_problem *problem, int rows,
-                                        const ambulo__row_shape *shape, ambulo__pool *pool,
+/* For a set of rows whose columns are there. E_MEMORY. */
+struct ambulo__sparse_rows;
+ambulo_status ambulo__row_blocks_create(const struct ambulo__sparse_rows *rows, ambulo__pool *pool,
                                         ambulo__row_blocks *blocks);
 /* Keeps slopes [3 d] of a row that is in a block. */
 void ambulo__row_blocks_keep(ambulo__row_blocks *blocks, int row, const double *slopes);

@@ -1,5 +1,6 @@
 /* linear/sparse_rows.c - see sparse_rows.h. */
 #include "linear/sparse_rows.h"
+
 #include "base/arithmetic.h"
 #include "problem/nonfinite.h"
 
@@ -13,6 +14,150 @@ static const ambulo__basis_point *point_of(const ambulo_problem *p, int node) {
 }
 
 /* ------------------------------------------------------------------ pattern */
+
+/* control points [first, last] that a row depends on */
+static void support(const ambulo_problem *p, const ambulo__table_row *row, int *first, int *last) {
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  *first = p->control_points;
+  *last = -1;
+  for (int t = 0; t < row->term_count; t++) {
+    int from = term[t].channel / p->coordinates, to = from;
+    if (term[t].node >= 0) {
+      from = point_of(p, term[t].node)->first;
+      to = from + point_of(p, term[t].node)->span - 1;
+    }
+    if (from < *first) *first = from;
+    if (to > *last) *last = to;
+  }
+}
+
+int ambulo__row_host(const ambulo_problem *p, int row) {
+  const ambulo__table_row *r = &p->table.rows[row];
+  if (r->node >= 0) return r->node;
+  int first, last;
+  support(p, r, &first, &last);
+  for (int k = 0; k < p->nodes; k++) {
+    const ambulo__basis_point *point = point_of(p, k);
+    if (first >= point->first && last < point->first + point->span) return k;
+  }
+  return -1;
+}
+
+/* A channel of a node depends on the motion of some coordinates there, and so on all control points
+ * of the node in these coordinates. Most rows stand on channels of one node, their host: their
+ * columns are the same coordinates at each of its control points. */
+typedef struct row_pattern {
+  const ambulo_problem *problem;
+  unsigned char *known;   /* [channels]: whether the next is filled */
+  unsigned char *channel; /* [channels][d]: 1 for the coordinates that a channel depends on */
+  unsigned char *mark;    /* [variables]: scratch for one row */
+} row_pattern;
+
+static ambulo_status create_pattern(const ambulo_problem *p, ambulo__pool *pool,
+                                    row_pattern *pattern) {
+  size_t channels = (size_t)ambulo__channel_count(&p->channels), d = (size_t)p->coordinates;
+  pattern->problem = p;
+  pattern->known = ambulo__pool_blocks(pool, channels, 1);
+  pattern->channel = ambulo__pool_blocks(pool, channels * d, 1);
+  pattern->mark = ambulo__pool_blocks(pool, (size_t)p->variables, 1);
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static void find_channel(const ambulo_problem *p, int channel, unsigned char *mark) {
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  ambulo__row_part part[AMBULO__MOST_PARTS];
+  int output = channel - ambulo__channel_outputs(&p->channels);
+  if (output < 0) {
+    mark[channel % p->coordinates] = 1;
+    return;
+  }
+  if ((p->holds || p->devices) && output < p->coordinates) { /* along both arms, other joints */
+    memset(mark, 1, (size_t)p->coordinates);
+    return;
+  }
+  int parts = ambulo__plan_parts(p->plan, output, part);
+  for (int k = 0; k < parts; k++) {
+    for (int e = pattern.start[part[k].row]; e < pattern.start[part[k].row + 1]; e++)
+      mark[pattern.column[e]] = 1;
+  }
+}
+
+/* [d]: 1 for the coordinates that a channel depends on */
+static const unsigned char *coordinates_of(row_pattern *pattern, int channel) {
+  unsigned char *mark = pattern->channel + (size_t)channel * (size_t)pattern->problem->coordinates;
+  if (!pattern->known[channel]) find_channel(pattern->problem, channel, mark);
+  pattern->known[channel] = 1;
+  return mark;
+}
+
+static void join(int count, const unsigned char *restrict from, unsigned char *restrict to) {
+  for (int i = 0; i < count; i++) to[i] |= from[i];
+}
+
+/* the coordinates of a row on its host alone, into mark [d]; the same at each control point */
+static void mark_local(row_pattern *pattern, int row, unsigned char *mark) {
+  const ambulo_problem *p = pattern->problem;
+  const ambulo__table_row *r = &p->table.rows[row];
+  const ambulo__row_term *term = p->table.terms + r->first_term;
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, r);
+  const int d = p->coordinates;
+  int channel[AMBULO__CURVED_CHANNELS];
+  memset(mark, r->user >= 0 && !curved, (size_t)d);
+  int count = curved ? ambulo__curved_channels(curved, channel) : r->user >= 0 ? 0 : r->term_count;
+  for (int k = 0; k < count; k++)
+    join(d, coordinates_of(pattern, curved ? channel[k] : term[k].channel), mark);
+}
+
+/* the same coordinates at each control point of the host */
+static int local_columns(row_pattern *pattern, int row, int host, int *column, int *count) {
+  const ambulo_problem *p = pattern->problem;
+  const int d = p->coordinates, span = point_of(p, host)->span;
+  int support = 0, first = ambulo__node_first(p, host);
+  mark_local(pattern, row, pattern->mark);
+  for (int i = 0; i < d; i++) {
+    if (!pattern->mark[i]) continue;
+    if (column) column[support] = first + i;
+    support++;
+  }
+  *count = support * span;
+  for (int e = support; e < *count && column; e++) column[e] = column[e - support] + d;
+  return support;
+}
+
+/* marks the unknowns of a row on several nodes, or on unknowns themselves, in [from, to) */
+static void mark_row(row_pattern *pattern, int row, int from, int to) {
+  const ambulo_problem *p = pattern->problem;
+  const ambulo__table_row *r = &p->table.rows[row];
+  const ambulo__row_term *term = p->table.terms + r->first_term;
+  memset(pattern->mark + from, 0, (size_t)(to - from));
+  for (int t = 0; t < r->term_count; t++) {
+    if (term[t].node < 0) {
+      pattern->mark[term[t].channel] = 1;
+      continue;
+    }
+    const ambulo__basis_point *point = point_of(p, term[t].node);
+    const unsigned char *mark = coordinates_of(pattern, term[t].channel);
+    for (int c = 0; c < point->span; c++)
+      join(p->coordinates, mark, pattern->mark + (point->first + c) * p->coordinates);
+  }
+}
+
+/* *count columns of a row, ascending, into `column` (NULL: they are only counted). Returns how many
+ * of them belong to each control point, where these are the same for all of the host's; else 0. */
+static int find_columns(row_pattern *pattern, int row, int host, int *column, int *count) {
+  const ambulo_problem *p = pattern->problem;
+  if (ambulo__row_is_local(p, row)) return local_columns(pattern, row, host, column, count);
+  const int from = host < 0 ? 0 : ambulo__node_first(p, host);
+  const int to = host < 0 ? p->variables : from + ambulo__node_width(p, host);
+  mark_row(pattern, row, from, to);
+  *count = 0;
+  for (int j = from; j < to; j++) {
+    if (!pattern->mark[j]) continue;
+    if (column) column[*count] = j;
+    ++*count;
+  }
+  return 0;
+}
 
 static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
   if (row->user >= 0) return 0;
@@ -54,9 +199,9 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->blocks = NULL;
   s->stale = NULL;
   size_t widest = (size_t)ambulo__basis_span(p->basis) * (size_t)p->coordinates;
-  ambulo__row_pattern pattern;
+  row_pattern pattern;
   s->dense = ambulo__pool_doubles(pool, (size_t)p->variables + widest);
-  if (ambulo__row_pattern_create(p, pool, &pattern)) return AMBULO_E_MEMORY;
+  if (create_pattern(p, pool, &pattern)) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     const ambulo__table_row *row = &p->table.rows[rows[i]];
     int entries;
@@ -65,7 +210,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
     s->host[i] = ambulo__row_host(p, rows[i]);
     s->constant[i] = is_linear(p, row);
     s->scale[i] = 1.0;
-    s->support[i] = ambulo__row_pattern_columns(&pattern, rows[i], s->host[i], NULL, &entries);
+    s->support[i] = find_columns(&pattern, rows[i], s->host[i], NULL, &entries);
     s->start[i + 1] = s->start[i] + entries;
   }
   s->column = ambulo__pool_ints(pool, (size_t)s->start[count]);
@@ -75,8 +220,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   for (int i = 0; i < count; i++) {
     int entries;
     if (is_over(poll, i)) return AMBULO_E_LIMIT;
-    (void)ambulo__row_pattern_columns(&pattern, rows[i], s->host[i], s->column + s->start[i],
-                                      &entries);
+    (void)find_columns(&pattern, rows[i], s->host[i], s->column + s->start[i], &entries);
   }
   ambulo__sparse_rows_find_runs(s);
   return AMBULO_OK;
@@ -182,45 +326,11 @@ void ambulo__sparse_rows_values(const ambulo__sparse_rows *s, const ambulo_works
   for (int i = 0; i < s->count; i++) value[i] = s->scale[i] * workspace->row_value[s->row[i]];
 }
 
-/* how much of the motion of its host a row needs */
-static int orders_of(const ambulo_problem *p, const ambulo__table_row *row) {
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
-  int channel[AMBULO__CURVED_CHANNELS], most = 1;
-  if (row->user >= 0 && !curved) return 3;
-  int count = curved ? ambulo__curved_channels(curved, channel) : row->term_count;
-  for (int k = 0; k < count; k++) {
-    int orders = ambulo__channel_orders(p, curved ? channel[k] : term[k].channel);
-    if (orders > most) most = orders;
-  }
-  return most;
-}
-
-/* others than limits on one number, of linear rows, are left to their gradients, which are short */
-static ambulo__row_shape shape_of(const ambulo__sparse_rows *s, int i) {
-  const ambulo_problem *p = s->problem;
-  const ambulo__table_row *row = &p->table.rows[s->row[i]];
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  ambulo__row_shape shape = {.host = s->host[i], .entry = -1};
-  if (s->support[i] == 0) return shape;
-  shape.support = s->support[i];
-  shape.column = s->column + s->start[i];
-  if (!s->constant[i]) {
-    shape.orders = orders_of(p, row);
-  } else if (row->term_count == 1) {
-    shape.entry = term->channel;
-    shape.coefficient = term->coefficient;
-  }
-  return shape;
-}
-
 ambulo_status ambulo__sparse_rows_lay_blocks(ambulo__sparse_rows *s, ambulo__pool *pool) {
-  ambulo__row_shape *shape = ambulo__pool_blocks(pool, (size_t)s->count, sizeof *shape);
   ambulo__row_blocks *blocks = ambulo__pool_blocks(pool, 1, sizeof *blocks);
   int *stale = ambulo__pool_ints(pool, (size_t)s->count);
   if (pool->failed) return AMBULO_E_MEMORY;
-  for (int i = 0; i < s->count; i++) shape[i] = shape_of(s, i);
-  ambulo_status status = ambulo__row_blocks_create(s->problem, s->count, shape, pool, blocks);
+  ambulo_status status = ambulo__row_blocks_create(s, pool, blocks);
   if (status) return status;
   s->blocks = blocks;
   s->stale = stale;

@@ -16,12 +16,16 @@
 #ifndef AMBULO_LINEAR_SPARSE_ROWS_H
 #define AMBULO_LINEAR_SPARSE_ROWS_H
 
-#include "problem/nlp.h"
 #include "linear/pool.h"
 #include "linear/row_blocks.h"
-#include "linear/row_pattern.h"
 #include "problem/callbacks.h"
-#include "linear/poll.h"
+#include "problem/nlp.h"
+
+/* Whether long work is to end, asked now and then. */
+typedef struct ambulo__poll {
+  int (*ask)(void *user); /* 1: the work is to end. NULL: never */
+  void *user;
+} ambulo__poll;
 
 typedef struct ambulo__sparse_rows {
   const ambulo_problem *problem;
@@ -72,5 +76,8 @@ void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *rows, double f
                                        const double *w, double *y);
 /* Euclidean norm of gradient i. */
 double ambulo__sparse_rows_norm(const ambulo__sparse_rows *rows, int i);
+
+/* The node whose window holds every unknown that the row depends on; -1: none. */
+int ambulo__row_host(const ambulo_problem *problem, int row);
 
 #endif

@@ -21,7 +21,7 @@
  *   end     when A repeats, or when a step brought less than a thousandth of the whole gain
  *
  * Rows that come or go are added to or taken from the band; few of them update its factor
- * (update.h), more have it factored anew. No evaluation but the first is needed. The metric of the
+ * (border.h), more have it factored anew. No evaluation but the first is needed. The metric of the
  * iterations that follow is the one with this predicted A: rows that the step is about to meet are
  * felt before they are hit, which is what plain Gauss-Newton steps lack.
  */

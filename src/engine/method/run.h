@@ -4,7 +4,7 @@
 
 #include "problem/callbacks.h"
 #include "ambulo/solve.h"
-#include "linear/poll.h"
+#include "linear/sparse_rows.h"
 #include "method/history.h"
 
 typedef struct ambulo__run {

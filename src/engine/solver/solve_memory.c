@@ -7,7 +7,7 @@
  *     21 J               gradients: value, column, run; slopes by the motion, 3/5 as many
  *     8 n (16 + 12)      vectors, and the mixing of five iterates
  *     8 * 14 m           values, multipliers and marks of rows
- *     8 n (q + 32)       the wings of the border, and of rows that come and go (update.h)
+ *     8 n (q + 32)       columns of the border, and of rows that come and go (border.h)
  *
  * Meanwhile a coarser grid may be solved (half as much again at the most); afterwards an audit on a
  * finer grid or an explanation (two more bands, all gradients) may follow. The largest counts.
@@ -55,15 +55,15 @@ ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
   double n = p->variables, k = ambulo__metric_diagonals(p) + 28.0, word = sizeof(double);
   double entries = 21.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
   double bands = 3.0 * word * n * k, vectors = word * (28.0 * n + 14.0 * p->rows);
-  double wing = word * n * (borders + 32.0);
+  double columns = word * n * (borders + 32.0);
   ambulo_memory memory;
   memory.problem = ambulo__row_bytes(p, p->rows) + 400.0 * p->nodes;
   memory.evaluation = ambulo__workspace_bytes(p, 1);
-  double engine = memory.evaluation + bands + entries + vectors + wing;
+  double engine = memory.evaluation + bands + entries + vectors + columns;
   double coarse = coarse_share * (engine + memory.problem);
   int samples = ambulo__dense_samples(p, ambulo_options_default().dense_samples);
   double dense = samples < 2 ? 0.0 : samples * (memory.problem + ambulo__workspace_bytes(p, 0));
-  double explanation = 2.0 / 3.0 * bands + entries + wing;
+  double explanation = 2.0 / 3.0 * bands + entries + columns;
   double after = dense > explanation ? dense : explanation;
   memory.solve = margin * (memory.problem + engine + (coarse > after ? coarse : after));
   return memory;
