@@ -238,7 +238,7 @@ static void test_update_open_system(changing *s) {
 /* H and the update change alike */
 static void change(changing *s, int row, double weight) {
   ambulo__band_add_sparse(&s->h, &s->set[2].rows, row, weight);
-  ambulo__kkt_change(&s->kkt, &s->set[2].rows, row, weight);
+  ambulo__update_row(&s->kkt.update, &s->set[2].rows, row, weight);
   s->weight[row] += weight;
 }
 

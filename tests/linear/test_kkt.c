@@ -1,7 +1,8 @@
 /* Equality-constrained solves against a dense LU factorization of the KKT matrix. */
-#include "linear/kkt.h"
 #include "base/lapack.h"
+#include "linear/kkt.h"
 #include "support/engine_fixture.h"
+#include "support/test.h"
 
 enum { N = 40, KD = 7, LOCAL = 15, BORDER = 4, ALL = N + LOCAL + BORDER };
 
@@ -249,7 +250,7 @@ static void small_right_hand_sides_are_as_exact(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
-int main(void) {
+static int test_kkt_tests(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(solution_is_the_dense_one),
       cmocka_unit_test(rows_hold_to_rounding),
@@ -262,4 +263,109 @@ int main(void) {
       cmocka_unit_test(small_right_hand_sides_are_as_exact),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+/* Mixing solves a linear fixed-point problem that plain iteration does not. */
+
+enum { TEST_MIXING_N = 3 };
+
+/* x <- x - r(x), r = A x - b, with an A for which that diverges */
+static void residual(const double *x, double *r) {
+  static const double a[TEST_MIXING_N][TEST_MIXING_N] = {
+      {3.0, 0.2, 0.0}, {0.1, 2.5, 0.3}, {0.0, -0.2, 0.4}};
+  static const double b[TEST_MIXING_N] = {1.0, 2.0, 3.0};
+  for (int i = 0; i < TEST_MIXING_N; i++) {
+    r[i] = -b[i];
+    for (int j = 0; j < TEST_MIXING_N; j++) r[i] += a[i][j] * x[j];
+  }
+}
+
+static double size(const double *r) {
+  return fabs(r[0]) + fabs(r[1]) + fabs(r[2]);
+}
+
+static void linear_problem_is_solved_in_a_few_steps(void **state) {
+  (void)state;
+  ambulo__pool pool;
+  ambulo__mixing mixing;
+  double x[TEST_MIXING_N] = {0.0}, r[TEST_MIXING_N];
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__mixing_create(&pool, TEST_MIXING_N, TEST_MIXING_N, &mixing), AMBULO_OK);
+  ambulo__mixing_reset(&mixing);
+  for (int k = 0; k < 8; k++) {
+    residual(x, r);
+    for (int i = 0; i < TEST_MIXING_N; i++) x[i] -= r[i];
+    ambulo__mixing_apply(&mixing, r, x);
+  }
+  residual(x, r);
+  assert_close(size(r), 0.0, 1e-9);
+  ambulo__pool_clear(&pool);
+}
+
+static void repeated_residual_leaves_the_image_finite(void **state) {
+  (void)state;
+  ambulo__pool pool;
+  ambulo__mixing mixing;
+  double r[TEST_MIXING_N] = {1.0, 1.0, 1.0};
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__mixing_create(&pool, TEST_MIXING_N, TEST_MIXING_N, &mixing), AMBULO_OK);
+  for (int k = 0; k < 4; k++) {
+    double image[TEST_MIXING_N] = {1.0, 2.0, 3.0};
+    ambulo__mixing_apply(&mixing, r, image);
+    assert_close(image[2], 3.0, 1e-12);
+  }
+  ambulo__pool_clear(&pool);
+}
+
+/* all differences point the same way: the secant all the same */
+static void parallel_residuals_are_extrapolated(void **state) {
+  (void)state;
+  ambulo__pool pool;
+  ambulo__mixing mixing;
+  double image[TEST_MIXING_N] = {0.0};
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__mixing_create(&pool, TEST_MIXING_N, TEST_MIXING_N, &mixing), AMBULO_OK);
+  for (int k = 0; k < 3; k++) {
+    double r[TEST_MIXING_N] = {1.0 - 0.1 * k, 0.5, 2.0 - 0.2 * k};
+    for (int i = 0; i < TEST_MIXING_N; i++) image[i] = k + 1.0;
+    ambulo__mixing_apply(&mixing, r, image);
+  }
+  for (int i = 0; i < TEST_MIXING_N; i++) assert_close(image[i], 11.0, 1e-3);
+  ambulo__pool_clear(&pool);
+}
+
+/* the newest pairs are kept, none after a reset */
+static void the_oldest_pair_gives_way(void **state) {
+  (void)state;
+  ambulo__pool pool;
+  ambulo__mixing mixing;
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__mixing_create(&pool, TEST_MIXING_N, TEST_MIXING_N, &mixing), AMBULO_OK);
+  for (int k = 0; k <= AMBULO__MIXING_DEPTH; k++) {
+    double r[TEST_MIXING_N] = {k + 1.0, cos(k), sin(k)}, image[TEST_MIXING_N] = {k, k, k};
+    ambulo__mixing_apply(&mixing, r, image);
+  }
+  assert_int_equal(mixing.count, AMBULO__MIXING_DEPTH);
+  for (int slot = 0; slot < AMBULO__MIXING_DEPTH; slot++)
+    assert_true(mixing.residual[slot][0] == (slot ? slot + 1.0 : AMBULO__MIXING_DEPTH + 1.0));
+  double r[TEST_MIXING_N] = {0.3, 0.2, 0.1}, image[TEST_MIXING_N] = {5.0, 6.0, 7.0};
+  ambulo__mixing_reset(&mixing);
+  ambulo__mixing_apply(&mixing, r, image);
+  assert_true(image[0] == 5.0 && image[1] == 6.0 && image[2] == 7.0);
+  assert_int_equal(mixing.count, 1);
+  ambulo__pool_clear(&pool);
+}
+
+static int test_mixing_tests(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(linear_problem_is_solved_in_a_few_steps),
+      cmocka_unit_test(repeated_residual_leaves_the_image_finite),
+      cmocka_unit_test(parallel_residuals_are_extrapolated),
+      cmocka_unit_test(the_oldest_pair_gives_way),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_kkt_tests() + test_mixing_tests();
 }

@@ -1,4 +1,5 @@
-/* linear/kkt.h - equality-constrained quadratic problems in a banded metric.
+/* linear/kkt.h - equality-constrained quadratic problems in a banded metric, and mixing of
+ * iterates.
  *
  *     H d + J' l + C' m = a,    J d = h,    C d = b                                (KKT)
  *
@@ -9,6 +10,7 @@
 #define AMBULO_LINEAR_KKT_H
 
 #include "linear/border.h"
+#include "linear/pool.h"
 
 typedef struct ambulo__kkt {
   int n, equalities;
@@ -30,10 +32,8 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
 /* Factors (KKT) for metric H and the gradients that the row sets hold; they must not change
  * while the factor is in use. 0, or 1 when H is not positive definite. */
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h);
-/* H plus weight J_i'J_i for row i of a set of hosted rows: noted, for ambulo__kkt_renew. */
-void ambulo__kkt_change(ambulo__kkt *kkt, const ambulo__sparse_rows *rows, int i, double weight);
-/* The factor of the last H with all changes since, which is h: by an update of few columns, or
- * anew. As ambulo__kkt_factor. */
+/* The factor of the last H with all changes since (ambulo__update_row), which is h: by an update of
+ * few columns, or anew. As ambulo__kkt_factor. */
 int ambulo__kkt_renew(ambulo__kkt *kkt, const ambulo__band *h);
 
 /* One pass: d solves M d + C' m = right, C d = b exactly; J d is what it comes out as.
@@ -44,5 +44,24 @@ void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *
  * multipliers on entry. m may be NULL. */
 void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
                        double *d, double *l, double *m);
+
+/* Anderson mixing of a fixed-point iteration, such as passes with a factor that is not quite that
+ * of the matrix. */
+#define AMBULO__MIXING_DEPTH 5
+
+typedef struct ambulo__mixing {
+  int points, residuals; /* lengths */
+  int count, next;       /* pairs held; where the next goes */
+  double *point[AMBULO__MIXING_DEPTH];
+  double *residual[AMBULO__MIXING_DEPTH];
+} ambulo__mixing;
+
+ambulo_status ambulo__mixing_create(ambulo__pool *pool, int points, int residuals,
+                                    ambulo__mixing *mixing);
+void ambulo__mixing_reset(ambulo__mixing *mixing);
+/* Given the image of an iterate under the fixed-point map and the iterate's residual,
+ * replaces the image by the mixture of the last images whose residuals cancel best.
+ * Coefficients sum to one. */
+void ambulo__mixing_apply(ambulo__mixing *mixing, const double *residual, double *image);
 
 #endif

@@ -142,7 +142,7 @@ static int factor(ambulo__linearized *at, ambulo__quadratic *q) {
     if (q->active[i] == q->added[i]) continue;
     double weight = q->active[i] ? q->rho : -q->rho;
     ambulo__band_add_sparse(&at->whitener, rows, i, weight);
-    if (!fresh) ambulo__kkt_change(&at->kkt, rows, i, weight);
+    if (!fresh) ambulo__update_row(&at->kkt.update, rows, i, weight);
     q->added[i] = q->active[i];
     moved = 1;
   }

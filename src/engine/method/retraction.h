@@ -3,7 +3,7 @@
 #ifndef AMBULO_METHOD_RETRACTION_H
 #define AMBULO_METHOD_RETRACTION_H
 
-#include "linear/mixing.h"
+#include "linear/kkt.h"
 #include "method/engine.h"
 
 /* The first two are for whoever needs other tolerances for a while, the rest is scratch. */
