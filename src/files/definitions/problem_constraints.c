@@ -42,45 +42,44 @@ void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml
 
 /* ----------------------------------------------------------------------- ends */
 
-typedef struct end_list {
-  ambulo_end_value *values;
-  int count;
-} end_list;
-
-/* one mapping of coordinate names to values, `default` for those not named; all names of the model
- * are known keys */
-static void read_values(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                        const char *key, int final, int order, end_list *list) {
-  const ambulo__yaml_node *mapping = ambulo__reader_section(section, key);
-  if (!mapping) return;
-  const ambulo__yaml_node *others = ambulo__yaml_get(mapping, "default");
-  for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo__yaml_node *node =
-        ambulo__yaml_get(mapping, ambulo_model_coordinate(reader->model, i)->name);
-    if (!node) node = others;
-    if (!node) continue;
-    ambulo_end_value value = {.coordinate = i, .order = order, .final = final};
-    value.value = ambulo__read_coordinate_value(reader, node, i);
-    list->values[list->count++] = value;
+/* mappings of coordinate names to values, `default` for those not named */
+static void read_end_values(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  static const char *const keys[] = {"initial", "initial_speed", "initial_acceleration",
+                                     "final",   "final_speed",   "final_acceleration"};
+  ambulo_problem_definition *d = &reader->definition;
+  int coordinates = ambulo_model_coordinate_count(reader->model);
+  ambulo_end_value *values = ambulo__reader_alloc(reader, 6 * (size_t)coordinates, sizeof *values);
+  for (int k = 0; values && k < 6; k++) {
+    const ambulo__yaml_node *mapping = ambulo__reader_section(section, keys[k]);
+    const ambulo__yaml_node *others = ambulo__yaml_get(mapping, "default");
+    for (int i = 0; mapping && i < coordinates; i++) {
+      const ambulo__yaml_node *node =
+          ambulo__yaml_get(mapping, ambulo_model_coordinate(reader->model, i)->name);
+      if (!node) node = others;
+      if (!node) continue;
+      values[d->end_value_count++] =
+          (ambulo_end_value){i, k % 3, k / 3, ambulo__read_coordinate_value(reader, node, i)};
+    }
+    ambulo__yaml_close(mapping);
   }
-  ambulo__yaml_close(mapping);
+  d->end_values = values;
 }
 
 /* Feet alternate: after an odd number of steps the other one leads, and the motion can only go on
  * as its mirror image; after an even number as itself. */
 static void check_steps(const ambulo__problem_reader *reader, const ambulo__yaml_node *kind) {
   ambulo_ends ends = reader->definition.ends;
-  int odd = reader->steps % 2;
-  if (reader->steps == 0 || ends == AMBULO_ENDS_FREE) return;
+  int odd = reader->keys.steps % 2;
+  if (reader->keys.steps == 0 || ends == AMBULO_ENDS_FREE) return;
   if (odd != (ends == AMBULO_ENDS_MIRRORED))
     (void)ambulo__yaml_error(kind, AMBULO_E_PROBLEM,
                              odd ? "ends: {kind: mirrored}, or an even number of steps"
                                  : "ends: {kind: periodic}, or an odd number of steps",
                              "%s ends with %d step%s; expected an %s number, after which %s",
-                             odd ? "periodic" : "mirrored", reader->steps,
-                             reader->steps == 1 ? "" : "s", odd ? "even" : "odd",
+                             odd ? "periodic" : "mirrored", reader->keys.steps,
+                             reader->keys.steps == 1 ? "" : "s", odd ? "even" : "odd",
                              odd ? "the same foot strikes again" : "the other foot strikes");
-  else if (odd && reader->unlike_steps)
+  else if (odd && reader->keys.unlike_steps)
     (void)ambulo__yaml_error(kind, AMBULO_E_PROBLEM,
                              "ends: {kind: periodic} with an even number of steps",
                              "mirrored ends make each step the mirror image of the one before, but "
@@ -112,24 +111,13 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
   check_steps(reader, ambulo__yaml_get(section, "kind"));
   reader->keys.travel = ambulo__yaml_get(section, "travel") != NULL;
   if (kind == 0) check_idle(section, d->rise);
-  size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);
-  end_list list = {ambulo__reader_alloc(reader, 6 * coordinates, sizeof(ambulo_end_value)), 0};
-  if (!list.values) return;
-  read_values(reader, section, "initial", 0, 0, &list);
-  read_values(reader, section, "initial_speed", 0, 1, &list);
-  read_values(reader, section, "initial_acceleration", 0, 2, &list);
-  read_values(reader, section, "final", 1, 0, &list);
-  read_values(reader, section, "final_speed", 1, 1, &list);
-  read_values(reader, section, "final_acceleration", 1, 2, &list);
-  d->end_values = list.values;
-  d->end_value_count = list.count;
+  read_end_values(reader, section);
   ambulo__yaml_close(section);
 }
 
 /* -------------------------------------------------- collision, reach and obstacles */
 
 static const double usual_margin = 0.01; /* m */
-static const double farthest = 1000.0;   /* m */
 
 enum { MOST_ITEMS = 10000 };
 
@@ -238,32 +226,20 @@ static void read_reach(ambulo__problem_reader *reader, const ambulo__yaml_node *
 
 /* ------------------------------------------------------------------ obstacles */
 
-static void read_sizes(const ambulo__yaml_node *node, double half[3]) {
-  if (!ambulo__yaml_numbers(node, 3, half)) return;
-  for (int i = 0; i < 3; i++) {
-    if (half[i] > 0.0 && half[i] <= farthest) continue;
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                             "half a size of %g m; expected more than 0, at most %g m", half[i],
-                             farthest);
-    half[i] = 1.0;
-  }
-}
-
 static void read_shape(ambulo__problem_reader *reader, const ambulo__yaml_node *item,
                        ambulo_obstacle *obstacle) {
+  static const char *const of_box[] = {"center", "half_size"};
+  static const char *const of_capsule[] = {"from", "to", "radius"};
   int is_capsule = ambulo__yaml_get(item, "radius") != NULL || ambulo__yaml_get(item, "to") != NULL;
-  if (is_capsule) {
+  const char *const *keys = is_capsule ? of_capsule : of_box;
+  for (int k = 0; k < (is_capsule ? 3 : 2); k++)
+    ambulo__read_member(reader, ambulo__yaml_require(item, keys[k]), &ambulo__obstacle_members,
+                        keys[k], obstacle);
+  if (is_capsule)
     obstacle->shape = AMBULO_OBSTACLE_CAPSULE;
-    (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "from"), 3, obstacle->from);
-    (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "to"), 3, obstacle->to);
-    obstacle->radius =
-        ambulo__yaml_number_in(ambulo__yaml_require(item, "radius"), 1e-4, farthest, 1.0);
-    return;
-  }
-  obstacle->shape = AMBULO_OBSTACLE_BOX;
-  (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "center"), 3, obstacle->center);
-  read_sizes(ambulo__yaml_require(item, "half_size"), obstacle->half);
-  obstacle->heading = ambulo__read_plain_angle(reader, ambulo__yaml_get(item, "heading"), 0.0);
+  else
+    ambulo__read_member(reader, ambulo__yaml_get(item, "heading"), &ambulo__obstacle_members,
+                        "heading", obstacle);
 }
 
 static void read_capsules(ambulo__problem_reader *reader, const ambulo__yaml_node *node,

@@ -14,7 +14,151 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ----------------------------------------------------------------------- gait */
+/* ---------------------------------------------------------------------- phases */
+
+/* When heel, sole and toes come and go, and steps whose length is a function of the speed: what
+ * becomes of them is contact/gait_rule.h's. When the file says nothing, textbook timing of
+ * comfortable walking at every speed (foot flat at 8 %, heel rise after 38 %, toe-off at 62 %;
+ * Perry, Gait Analysis, 1992). With `by_speed` the stance is shorter the faster people walk, by 3.5
+ * % of the stride for 1 m/s (Kirtley, Whittle & Jefferson, J Biomed Eng 7:282-288, 1985), -0.145
+ * for 1 of u at 1.75 m; the heel's rise goes along.
+ */
+
+typedef struct phase {
+  const char *name;
+  double people, slope; /* share of the stride, comfortable and by speed number */
+  double least, most;
+} phase;
+static const phase phases[AMBULO__PHASES] = {{"heel_strike", 0.0, 0.0, -0.49, 0.49},
+                                             {"foot_flat", 0.08, 0.0, -0.49, 1.0},
+                                             {"heel_off", 0.38, -0.145, -0.49, 1.0},
+                                             {"toe_off", 0.62, -0.145, -0.49, 1.0}};
+static const char by_speed[] = "by_speed";
+
+/* {comfortable, slope}, both with people's as defaults, or the word alone */
+static void read_function(ambulo__gait_rule *rule, const ambulo__yaml_node *node, int i) {
+  double value = phases[i].people, slope = phases[i].slope;
+  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  if (is_mapping && !ambulo__yaml_get(node, "comfortable") && !ambulo__yaml_get(node, "slope"))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "a phase without a number; expected comfortable, slope, or both");
+  if (is_mapping) {
+    value = ambulo__yaml_number_in(ambulo__yaml_get(node, "comfortable"), phases[i].least,
+                                   phases[i].most, value);
+    slope = ambulo__yaml_number_in(ambulo__yaml_get(node, "slope"), -10.0, 10.0, slope);
+    ambulo__yaml_close(node);
+  }
+  rule->phase_kind[i] = is_mapping ? AMBULO__PHASE_FUNCTION : AMBULO__PHASE_OF_PEOPLE;
+  rule->phase[i] = value;
+  rule->phase_slope[i] = slope;
+}
+
+static void read_phase(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  if (ambulo__yaml_is(node, AMBULO__YAML_SCALAR) &&
+      strcmp(ambulo__yaml_text(node), by_speed) == 0) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "phases: by_speed is of all four",
+                             "got 'by_speed' for one phase; expected a number, or {comfortable, "
+                             "slope}");
+  } else if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    rule->phase[i] =
+        ambulo__yaml_number_in(node, phases[i].least, phases[i].most, phases[i].people);
+  } else if (ambulo__speed_unit(reader->model) > 0.0) {
+    read_function(rule, node, i);
+  } else {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_PROBLEM, "give the model a stature, or the phase a number",
+        "a phase by speed of a model without stature or gravity; expected a number");
+  }
+}
+
+static int is_by_speed(const ambulo__yaml_node *node) {
+  static const char *const words[] = {by_speed};
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
+  return ambulo__yaml_choice(node, words, 1, -1) == 0;
+}
+
+static void read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  rule->length_kind = AMBULO__LENGTH_FUNCTION;
+  rule->length_comfortable =
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "comfortable"), 0.0, 5.0, 0.4);
+  rule->length_slope =
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "slope"), -10.0, 10.0, 0.0);
+  ambulo__yaml_close(node);
+  if (!(ambulo__speed_unit(reader->model) > 0.0) || isnan(rule->speed)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "a step length by speed, but %s; expected a length",
+                             isnan(rule->speed) ? "no gait.speed" : "no stature or no gravity");
+    return;
+  }
+  double number = ambulo__speed_number(reader->model, rule->speed);
+  double length =
+      rule->length_comfortable + rule->length_slope * (number - AMBULO__COMFORTABLE_NUMBER);
+  if (length > 0.0) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                           "steps of %.4g statures at a speed of %.4g sqrt(g H); expected a "
+                           "length above 0",
+                           length, number);
+}
+
+static void read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  ambulo__gait_rule *rule = &reader->keys.rule;
+  int all_by_speed = is_by_speed(node);
+  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  for (int i = 0; i < AMBULO__PHASES; i++) rule->phase[i] = phases[i].people;
+  if (all_by_speed && !(ambulo__speed_unit(reader->model) > 0.0)) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_PROBLEM, NULL,
+        "phases by speed of a model without stature or gravity; expected four numbers");
+    return;
+  }
+  if (node && !all_by_speed && !is_mapping && !ambulo__yaml_is(node, AMBULO__YAML_SCALAR))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "'phases' is a list; expected keys, or by_speed");
+  for (int i = 0; i < AMBULO__PHASES; i++) {
+    if (all_by_speed)
+      read_function(rule, node, i);
+    else if (is_mapping)
+      read_phase(reader, ambulo__yaml_get(node, phases[i].name), i);
+  }
+  if (is_mapping) ambulo__yaml_close(node);
+}
+
+static int are_in_order(const double share[AMBULO__PHASES]) {
+  return share[0] <= share[1] && share[1] <= share[2] && share[2] <= share[3] &&
+         share[3] < share[0] + 1.0;
+}
+
+static void check_phases(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         const ambulo_gait *gait) {
+  const double share[AMBULO__PHASES] = {gait->heel_strike, gait->foot_flat, gait->heel_off,
+                                        gait->toe_off};
+  double number = ambulo__speed_number(reader->model, ambulo__gait_speed(gait));
+  int moves = 0, outside = 0;
+  if (!node) return;
+  for (int i = 0; i < AMBULO__PHASES; i++) {
+    if (reader->keys.rule.phase_kind[i] == AMBULO__PHASE_SHARE) continue;
+    moves = 1;
+    if (share[i] >= phases[i].least && share[i] <= phases[i].most) continue;
+    const ambulo__yaml_node *own =
+        ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_get(node, phases[i].name) : node;
+    outside = 1;
+    (void)ambulo__yaml_error(own, AMBULO_E_PROBLEM, NULL,
+                             "%s is at %.4g of the stride at a speed of %.4g sqrt(g H); expected "
+                             "%.4g to %.4g",
+                             phases[i].name, share[i], number, phases[i].least, phases[i].most);
+  }
+  if (outside || are_in_order(share)) return;
+  char hint[80];
+  (void)snprintf(hint, sizeof hint, "phases go with the speed, here %.4g sqrt(g H)", number);
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, moves ? hint : NULL,
+                           "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
+                           "foot_flat <= heel_off <= toe_off < heel_strike + 1",
+                           share[0], share[1], share[2], share[3]);
+}
+
+/* --------------------------------------------------------------- lengths and times */
 
 static void check_agreement(const ambulo__yaml_node *node, const char *what, double step_time,
                             double other) {
@@ -80,7 +224,7 @@ static void read_lengths(ambulo__problem_reader *reader, const ambulo__yaml_node
     rule->length[0] = lengths[0];
     if (lengths[1] != 0.0) rule->length[1] = lengths[1];
   } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
-    ambulo__read_step_length(reader, node);
+    read_step_length(reader, node);
   } else if (!node && has_speed && rule->time_kind != AMBULO__TIME_OF_SPEED) {
     rule->length_kind = AMBULO__LENGTH_OF_TIME;
   } else if (!node && has_speed && ambulo_model_stature(reader->model) > 0.0) {
@@ -101,8 +245,8 @@ static void check_times(const ambulo__problem_reader *reader, const ambulo__yaml
   if (!is_list(time) && reader->has_duration)
     check_agreement(time, "step_time", rule->time[0], duration);
   if (rule->time_kind == AMBULO__TIME_OF_SPEED) return;
-  double by_speed = ambulo__gait_place(gait, gait->steps) / (rule->speed * (double)gait->steps);
-  check_agreement(ambulo__yaml_get(section, "speed"), "speed", by_speed, mean);
+  double implied = ambulo__gait_place(gait, gait->steps) / (rule->speed * (double)gait->steps);
+  check_agreement(ambulo__yaml_get(section, "speed"), "speed", implied, mean);
 }
 
 static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
@@ -144,20 +288,18 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   double longer = keys->longer > 0.0 ? keys->longer : 1.0;
   rule->width =
       longer * ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0, NAN);
-  const ambulo__yaml_node *phases = ambulo__yaml_get(section, "phases");
-  ambulo__read_phases(reader, phases);
+  const ambulo__yaml_node *given = ambulo__yaml_get(section, "phases");
+  read_phases(reader, given);
   ambulo__gait_follow(rule, reader->model, &gait);
   check_times(reader, section, &gait);
-  ambulo__check_phases(reader, phases, &gait);
+  check_phases(reader, given, &gait);
   ambulo__yaml_close(section);
   if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
   reader->definition.travel = ambulo__gait_place(&gait, gait.steps);
-  reader->steps = gait.steps;
-  reader->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
-                         differs(gait.step_length, gait.other_step_length);
+  keys->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
+                       differs(gait.step_length, gait.other_step_length);
   keys->gait = 1;
   keys->steps = gait.steps;
-  keys->unlike_steps = reader->unlike_steps;
   keys->speed = ambulo__yaml_get(section, "speed") != NULL;
   keys->lengths = is_list(ambulo__yaml_get(section, "step_length"));
   keys->walk = gait;
@@ -173,145 +315,4 @@ void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_no
   }
   if (contacts) ambulo__read_contacts(reader, contacts);
   if (reader->gait) read_gait(reader, reader->gait);
-}
-
-/* ---------------------------------------------------------------------- phases */
-
-/* `gait.phases`: when heel, sole and toes come and
- * go; and steps whose length is a function of the speed.
- *
- * What becomes of them is contact/gait_rule.h's. When the file says nothing, textbook timing of
- * comfortable walking at every speed (foot flat at 8 %, heel rise after 38 %, toe-off at 62 %;
- * Perry, Gait Analysis, 1992). With `by_speed` the stance is shorter the faster people walk, by 3.5
- * % of the stride for 1 m/s (Kirtley, Whittle & Jefferson, J Biomed Eng 7:282-288, 1985), -0.145
- * for 1 of u at 1.75 m; the heel's rise goes along.
- */
-
-static const char *const names[AMBULO__PHASES] = {"heel_strike", "foot_flat", "heel_off",
-                                                  "toe_off"};
-static const char by_speed[] = "by_speed";
-static const double people[AMBULO__PHASES] = {0.0, 0.08, 0.38, 0.62};
-static const double people_slope[AMBULO__PHASES] = {0.0, 0.0, -0.145, -0.145};
-static const double least[AMBULO__PHASES] = {-0.49, -0.49, -0.49, -0.49};
-static const double most[AMBULO__PHASES] = {0.49, 1.0, 1.0, 1.0};
-
-/* {comfortable, slope}, both with people's as defaults, or the word alone */
-static void read_function(ambulo__gait_rule *rule, const ambulo__yaml_node *node, int i) {
-  double value = people[i], slope = people_slope[i];
-  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
-  if (is_mapping && !ambulo__yaml_get(node, "comfortable") && !ambulo__yaml_get(node, "slope"))
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                             "a phase without a number; expected comfortable, slope, or both");
-  if (is_mapping) {
-    value = ambulo__yaml_number_in(ambulo__yaml_get(node, "comfortable"), least[i], most[i], value);
-    slope = ambulo__yaml_number_in(ambulo__yaml_get(node, "slope"), -10.0, 10.0, slope);
-    ambulo__yaml_close(node);
-  }
-  rule->phase_kind[i] = is_mapping ? AMBULO__PHASE_FUNCTION : AMBULO__PHASE_OF_PEOPLE;
-  rule->phase[i] = value;
-  rule->phase_slope[i] = slope;
-}
-
-static void read_phase(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i) {
-  ambulo__gait_rule *rule = &reader->keys.rule;
-  if (ambulo__yaml_is(node, AMBULO__YAML_SCALAR) &&
-      strcmp(ambulo__yaml_text(node), by_speed) == 0) {
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "phases: by_speed is of all four",
-                             "got 'by_speed' for one phase; expected a number, or {comfortable, "
-                             "slope}");
-  } else if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
-    rule->phase[i] = ambulo__yaml_number_in(node, least[i], most[i], people[i]);
-  } else if (ambulo__speed_unit(reader->model) > 0.0) {
-    read_function(rule, node, i);
-  } else {
-    (void)ambulo__yaml_error(
-        node, AMBULO_E_PROBLEM, "give the model a stature, or the phase a number",
-        "a phase by speed of a model without stature or gravity; expected a number");
-  }
-}
-
-static int is_by_speed(const ambulo__yaml_node *node) {
-  static const char *const words[] = {by_speed};
-  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
-  return ambulo__yaml_choice(node, words, 1, -1) == 0;
-}
-
-void ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  ambulo__gait_rule *rule = &reader->keys.rule;
-  rule->length_kind = AMBULO__LENGTH_FUNCTION;
-  rule->length_comfortable =
-      ambulo__yaml_number_in(ambulo__yaml_require(node, "comfortable"), 0.0, 5.0, 0.4);
-  rule->length_slope =
-      ambulo__yaml_number_in(ambulo__yaml_require(node, "slope"), -10.0, 10.0, 0.0);
-  ambulo__yaml_close(node);
-  if (!(ambulo__speed_unit(reader->model) > 0.0) || isnan(rule->speed)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                             "a step length by speed, but %s; expected a length",
-                             isnan(rule->speed) ? "no gait.speed" : "no stature or no gravity");
-    return;
-  }
-  double number = ambulo__speed_number(reader->model, rule->speed);
-  double length =
-      rule->length_comfortable + rule->length_slope * (number - AMBULO__COMFORTABLE_NUMBER);
-  if (length > 0.0) return;
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                           "steps of %.4g statures at a speed of %.4g sqrt(g H); expected a "
-                           "length above 0",
-                           length, number);
-}
-
-void ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
-  ambulo__gait_rule *rule = &reader->keys.rule;
-  int all_by_speed = is_by_speed(node);
-  int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
-  for (int i = 0; i < AMBULO__PHASES; i++) rule->phase[i] = people[i];
-  if (all_by_speed && !(ambulo__speed_unit(reader->model) > 0.0)) {
-    (void)ambulo__yaml_error(
-        node, AMBULO_E_PROBLEM, NULL,
-        "phases by speed of a model without stature or gravity; expected four numbers");
-    return;
-  }
-  if (node && !all_by_speed && !is_mapping && !ambulo__yaml_is(node, AMBULO__YAML_SCALAR))
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                             "'phases' is a list; expected keys, or by_speed");
-  for (int i = 0; i < AMBULO__PHASES; i++) {
-    if (all_by_speed)
-      read_function(rule, node, i);
-    else if (is_mapping)
-      read_phase(reader, ambulo__yaml_get(node, names[i]), i);
-  }
-  if (is_mapping) ambulo__yaml_close(node);
-}
-
-static int are_in_order(const double phase[AMBULO__PHASES]) {
-  return phase[0] <= phase[1] && phase[1] <= phase[2] && phase[2] <= phase[3] &&
-         phase[3] < phase[0] + 1.0;
-}
-
-void ambulo__check_phases(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                          const ambulo_gait *gait) {
-  const double phase[AMBULO__PHASES] = {gait->heel_strike, gait->foot_flat, gait->heel_off,
-                                        gait->toe_off};
-  double number = ambulo__speed_number(reader->model, ambulo__gait_speed(gait));
-  int moves = 0, outside = 0;
-  if (!node) return;
-  for (int i = 0; i < AMBULO__PHASES; i++) {
-    if (reader->keys.rule.phase_kind[i] == AMBULO__PHASE_SHARE) continue;
-    moves = 1;
-    if (phase[i] >= least[i] && phase[i] <= most[i]) continue;
-    const ambulo__yaml_node *own =
-        ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_get(node, names[i]) : node;
-    outside = 1;
-    (void)ambulo__yaml_error(own, AMBULO_E_PROBLEM, NULL,
-                             "%s is at %.4g of the stride at a speed of %.4g sqrt(g H); expected "
-                             "%.4g to %.4g",
-                             names[i], phase[i], number, least[i], most[i]);
-  }
-  if (outside || are_in_order(phase)) return;
-  char hint[80];
-  (void)snprintf(hint, sizeof hint, "phases go with the speed, here %.4g sqrt(g H)", number);
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, moves ? hint : NULL,
-                           "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
-                           "foot_flat <= heel_off <= toe_off < heel_strike + 1",
-                           phase[0], phase[1], phase[2], phase[3]);
 }

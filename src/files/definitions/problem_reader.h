@@ -40,8 +40,6 @@ typedef struct ambulo__problem_reader {
   const ambulo__yaml_node *gait; /* the section, or NULL */
   const ambulo__yaml_node *grid; /* time.grid, or NULL */
   int has_duration;              /* time.duration is in the file */
-  int steps;                     /* of `gait`, 0 without */
-  int unlike_steps;              /* two step lengths or times that differ */
   const char **model_override;   /* [model_overrides], of the model file's keys */
   int model_overrides;
   ambulo__problem_keys keys; /* of the file */
@@ -106,12 +104,6 @@ int ambulo__read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_n
 void ambulo__read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
 /* `gait:` or `contacts:`; after the time, which it may complete. */
 void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
-/* `gait.phases`, into the rule of the gait; and what is wrong with the walk that follows. */
-void ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
-void ambulo__check_phases(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                          const ambulo_gait *gait);
-/* A step length {comfortable, slope}, into the rule, whose speed is known. */
-void ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
