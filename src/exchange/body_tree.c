@@ -1,6 +1,6 @@
 /* exchange/body_tree.c - links, bodies, names and notes of a tree (body_tree.h).
  *
- * Reading order: import.c, body_tree.h, body_tree.c, rigid.h, xml.h; urdf.c; osim.c, osim_joints.c,
+ * Reading order: import.c, body_tree.h, body_tree.c, rigid.h, xml.h; urdf.c; osim.c, osim_bodies.c,
  * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, foot_solids.c, mirror_pairs.c; tree_yaml.c.
  * The way back: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
  */

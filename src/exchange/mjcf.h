@@ -27,9 +27,6 @@ typedef struct ambulo__mjcf {
   int key_count, key_used;
 } ambulo__mjcf;
 
-/* <include>s are replaced by what the files hold, <frame>s stay (mjcf.c). */
-void ambulo__mjcf_include(ambulo__xml *xml, ambulo__xml_node *root, const char *path);
-
 /* ------------------------------------------------ attributes (mjcf_geoms.c) */
 
 /* An attribute of an element: its own, else that of its default class, `around` for an element
@@ -50,27 +47,11 @@ ambulo__rigid ambulo__mjcf_place(const ambulo__mjcf *m, const ambulo__xml_node *
 
 void ambulo__mjcf_bodies(ambulo__mjcf *m);
 
-/* ------------------------------------------------------ start pose (mjcf.c) */
-
-/* The first keyframe, and its next numbers for the joint that is met next; NULL without. */
-void ambulo__mjcf_key(ambulo__mjcf *m);
-const double *ambulo__mjcf_take(ambulo__mjcf *m, int count);
-/* Defaults of six coordinates from link `first` on, of a body that stands there in the file; of
- * three. */
-void ambulo__mjcf_start_free(ambulo__mjcf *m, int first, const ambulo__rigid *body);
-void ambulo__mjcf_start_ball(ambulo__mjcf *m, int first);
-
 /* ----------------------------------------------------------- geoms (mjcf_geoms.c) */
 
 /* Adds mass and inertia of a geom, in the frame of its body, if `massive`, and its solid. */
 void ambulo__mjcf_geom(ambulo__mjcf *m, const ambulo__xml_node *geom, const char *around,
                        const ambulo__rigid *frame, int massive, ambulo__part *body,
                        ambulo__tree_solid *solid, int *has_solid);
-
-/* --------------------------------------------------- actuators (mjcf.c) */
-
-void ambulo__mjcf_actuators(ambulo__mjcf *m);
-/* Whether an actuator names the joint. */
-int ambulo__mjcf_is_driven(const ambulo__mjcf *m, const char *joint);
 
 #endif

@@ -15,7 +15,73 @@
 #include <string.h>
 
 #include "base/numtext.h"
+#include "base/arithmetic.h"
 #include "exchange/mjcf.h"
+
+/* ------------------------------------------------------------------- start pose */
+
+/* The start pose is the first keyframe.
+ *
+ * qpos has of a free joint its place in the world and a quaternion, of a ball a quaternion, of
+ * others a number, in rad or m, all in the order of the joints. With R the turn, of a free joint
+ * against the body's own orientation in the file and in axes along forward, left and up,
+ *
+ *     free   R = Rot_y(tilt) Rot_x(list) Rot_z(rotation)     (body_tree.c)
+ *     ball   R = Rot_x(x) Rot_y(y) Rot_z(z)
+ */
+
+enum { MOST = 4096 };
+
+static void read_key(ambulo__mjcf *m) {
+  const ambulo__xml_node *frames = ambulo__xml_child(m->root, "keyframe");
+  const ambulo__xml_node *key = ambulo__xml_child(frames, "key");
+  const char *text = key ? ambulo__xml_attribute(key, "qpos") : NULL;
+  const char *name = key ? ambulo__xml_attribute(key, "name") : NULL;
+  if (!text) return;
+  m->key = ambulo__arena_take(m->tree->arena, MOST, sizeof *m->key);
+  if (!m->key) return;
+  m->key_count = ambulo__xml_numbers(m->xml, key, "qpos", text, MOST, 0, m->key);
+  ambulo__tree_note(m->tree, key, "the start pose is that of keyframe '%.60s'",
+                    name && name[0] ? name : "0");
+}
+
+static const double *take_key(ambulo__mjcf *m, int count) {
+  int at = m->key_used;
+  m->key_used += count;
+  return m->key && m->key_used <= m->key_count ? m->key + at : NULL;
+}
+
+static void set(ambulo__tree *tree, int link, double value) {
+  if (link < tree->link_count) tree->links[link].coordinate.default_value = value;
+}
+
+static void start_free(ambulo__mjcf *m, int first, const ambulo__rigid *body) {
+  const double *key = take_key(m, 7);
+  ambulo__rigid turn = ambulo__rigid_identity();
+  double axes[3][3], n[3][3];
+  if (!key || !ambulo__rotation_of_quaternion(key + 3, turn.r)) return;
+  ambulo__rigid own = ambulo__rigid_turned(body), back = ambulo__rigid_inverse(&own);
+  turn = ambulo__rigid_times(&turn, &back);
+  ambulo__tree_axes(m->tree, axes);
+  for (int j = 0; j < 3; j++) {
+    double column[3];
+    ambulo__rigid_vector(&turn, axes[j], column);
+    for (int i = 0; i < 3; i++) n[i][j] = ambulo__dot(axes[i], column);
+  }
+  for (int i = 0; i < 3; i++) set(m->tree, first + i, key[i] - body->p[i]);
+  set(m->tree, first + 3, atan2(n[0][2], n[2][2]));
+  set(m->tree, first + 4, -asin(fmax(-1.0, fmin(1.0, n[1][2]))));
+  set(m->tree, first + 5, atan2(n[1][0], n[1][1]));
+}
+
+static void start_ball(ambulo__mjcf *m, int first) {
+  const double *key = take_key(m, 4);
+  double n[3][3];
+  if (!key || !ambulo__rotation_of_quaternion(key, n)) return;
+  set(m->tree, first, atan2(-n[1][2], n[2][2]));
+  set(m->tree, first + 1, asin(fmax(-1.0, fmin(1.0, n[0][2]))));
+  set(m->tree, first + 2, atan2(-n[0][1], n[0][0]));
+}
 
 /* what is known while one body is read */
 typedef struct reading {
@@ -76,7 +142,7 @@ static void one_coordinate(reading *b, ambulo__chain *chain, const ambulo__xml_n
   if (link < 0) return;
   read_limits(b, joint, slides, link);
   (void)ambulo__mjcf_numbers(m, joint, b->around, "ref", 1, 1, &zero);
-  const double *key = ambulo__mjcf_take(m, 1);
+  const double *key = take_key(m, 1);
   m->tree->links[link].coordinate.default_value = ambulo__tree_pose(m->tree, name,
                                                                     key      ? *key
                                                                     : slides ? zero
@@ -112,7 +178,7 @@ static void add_joint(reading *b, ambulo__chain *chain, const ambulo__xml_node *
     first = m->tree->link_count;
     ambulo__chain_free(chain, name);
     ambulo__chain_place(chain, &turned);
-    ambulo__mjcf_start_free(m, first, &body);
+    start_free(m, first, &body);
     return;
   }
   (void)ambulo__mjcf_numbers(m, joint, b->around, "pos", 3, 3, anchor);
@@ -120,7 +186,7 @@ static void add_joint(reading *b, ambulo__chain *chain, const ambulo__xml_node *
   shift(chain, anchor, 1.0);
   if (type == BALL) {
     ambulo__chain_ball(chain, name, &first);
-    ambulo__mjcf_start_ball(m, first);
+    start_ball(m, first);
   } else {
     one_coordinate(b, chain, joint, type == SLIDE, name);
   }
@@ -190,12 +256,23 @@ static void read_mass(reading *b, int link) {
   ambulo__tree_body(m->tree, link, &body, at, at);
 }
 
+/* whether an actuator names the joint */
+static int is_driven(const ambulo__mjcf *m, const char *joint) {
+  AMBULO__XML_EACH (set, m->root, "actuator") {
+    for (const ambulo__xml_node *n = set->first; n; n = n->next) {
+      const char *other = ambulo__xml_attribute(n, "joint");
+      if (other && strcmp(other, joint) == 0) return 1;
+    }
+  }
+  return 0;
+}
+
 /* joints of a root of its own that nothing drives */
 static void free_root(reading *b, int first) {
   ambulo__tree *t = b->m->tree;
   for (int i = first; i < t->link_count && b->joints >= 2; i++) {
     ambulo_coordinate *c = &t->links[i].coordinate;
-    if (c->name && !ambulo__mjcf_is_driven(b->m, c->name)) c->actuated = 0;
+    if (c->name && !is_driven(b->m, c->name)) c->actuated = 0;
   }
 }
 
@@ -248,6 +325,7 @@ static int count_bodies(const ambulo__xml_node *node) {
 void ambulo__mjcf_bodies(ambulo__mjcf *m) {
   ambulo__rigid none = ambulo__rigid_identity();
   int roots = 0, ground = -1;
+  read_key(m);
   AMBULO__XML_EACH (n, m->root, "worldbody") roots += count_bodies(n);
   if (roots > 1)
     ground = ambulo__tree_add(m->tree, "ground", -1, AMBULO_FIXED, &none, NULL, m->root);

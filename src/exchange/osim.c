@@ -3,180 +3,250 @@
  * Angles are radians; y is up, x forward, z right. Bodies are numbered from the ground, each
  * subtree whole, in the order of the joints of the file. Several bodies that hang on the ground get
  * one fixed link there, for a model has one root.
+ *
+ * A joint places its child's frame in its parent's by X(q), the frames F and M of the two bodies:
+ *
+ *   WeldJoint        1
+ *   PinJoint         turn about z
+ *   SliderJoint      slide along x
+ *   UniversalJoint   turns about x, then the turned y
+ *   GimbalJoint      turns about x, y, z, each turned by those before; BallJoint likewise
+ *   FreeJoint        slides along x, y, z of F, then turns as a gimbal; its first three coordinates
+ *                    are the turns
+ *   PlanarJoint      slides along x and y of F, then turns about z; its first coordinate is the
+ * turn CustomJoint      Trans(a4 f4 + a5 f5 + a6 f6) Rot(a1, f1) Rot(a2, f2) Rot(a3, f3), with each
+ * f a function of a coordinate
+ *
+ * A function slope q + offset with a slope of 1 is a joint of the coordinate itself; with -1 about
+ * the opposite axis; with another slope the coordinate of the model is slope times that of the
+ * source, and a note says so. Everything else, and what a coordinate drives besides, is frozen at
+ * the default of the coordinate; a note says by how much it would have moved.
  */
-#include "exchange/osim.h"
-
-#include "model/check.h"
-
-#include <stdio.h>
+#include <math.h>
 #include <string.h>
 
-const char *ambulo__osim_text(const ambulo__xml_node *node, const char *name, const char *other) {
-  const ambulo__xml_node *child = ambulo__xml_child(node, name);
-  if (!child && other) child = ambulo__xml_child(node, other);
-  return child ? child->text : "";
+#include "base/numtext.h"
+#include "exchange/osim.h"
+
+enum { MOST_COORDINATES = 6, AXES = 6 };
+
+typedef struct building {
+  ambulo__osim *o;
+  const ambulo__osim_joint *joint;
+  ambulo__chain chain;
+  ambulo__osim_coordinate coordinates[MOST_COORDINATES];
+  int count;
+  int has_link[MOST_COORDINATES]; /* some axis is the coordinate's own */
+} building;
+
+/* ------------------------------------------------------------------- one degree */
+
+static void put_still(building *b, int slides, const double axis[3], double value) {
+  double unit[3] = {axis[0], axis[1], axis[2]};
+  (void)ambulo__normalize(unit);
+  ambulo__rigid still = ambulo__rigid_step(slides, unit, value);
+  ambulo__chain_place(&b->chain, &still);
 }
 
-ambulo__xml_node *ambulo__osim_objects(const ambulo__xml_node *node, const char *set) {
-  const ambulo__xml_node *list = ambulo__xml_child(node, set);
-  const ambulo__xml_node *objects = ambulo__xml_child(list, "objects");
-  return objects ? objects->first : NULL;
+/* slope q + offset about or along an axis */
+static void put_moving(building *b, int slides, const double axis[3], int c, double slope,
+                       double offset) {
+  ambulo__osim_coordinate *coordinate = &b->coordinates[c];
+  const double along[3] = {slope < 0 ? -axis[0] : axis[0], slope < 0 ? -axis[1] : axis[1],
+                           slope < 0 ? -axis[2] : axis[2]};
+  if (coordinate->held) {
+    put_still(b, slides, axis, slope * coordinate->value + offset);
+    return;
+  }
+  if (offset != 0.0) put_still(b, slides, axis, offset);
+  int link = ambulo__chain_joint(&b->chain, slides ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, along,
+                                 coordinate->name);
+  b->has_link[c] = 1;
+  if (fabs(slope) != 1.0)
+    ambulo__tree_note(
+        b->o->tree, b->joint->node,
+        "%s is %s times the source's coordinate, so that it is the joint's angle or length",
+        coordinate->name, ambulo__number_text(fabs(slope)).text);
+  ambulo__osim_limits(b->o, coordinate, fabs(slope), link);
+  if (link >= 0) b->o->tree->links[link].coordinate.default_value = fabs(slope) * coordinate->value;
 }
 
-int ambulo__osim_flag(const ambulo__xml_node *node, const char *name, int otherwise) {
-  const char *text = ambulo__osim_text(node, name, NULL);
-  if (strcmp(text, "true") == 0 || strcmp(text, "1") == 0) return 1;
-  return strcmp(text, "false") == 0 || strcmp(text, "0") == 0 ? 0 : otherwise;
+static void simple(building *b, int slides, int along, int c) {
+  const double axis[3] = {along == 0, along == 1, along == 2};
+  if (c < b->count) put_moving(b, slides, axis, c, 1.0, 0.0);
 }
 
-/* ------------------------------------------------------------------------- bodies */
+/* ------------------------------------------------------------------ custom joints */
 
-static int find_body(const ambulo__osim *o, const char *name) {
-  for (int i = 0; i < o->body_count; i++)
-    if (strcmp(o->bodies[i].name, name) == 0) return i;
+typedef struct transform_axis {
+  const ambulo__xml_node *node, *function;
+  double axis[3];
+  int coordinate; /* -1: none */
+  int linear;
+  double slope, offset;
+} transform_axis;
+
+static int find_coordinate(const building *b, const char *name) {
+  for (int i = 0; i < b->count; i++)
+    if (strcmp(b->coordinates[i].name, name) == 0) return i;
   return -1;
 }
 
-static void add_body(ambulo__osim *o, const char *name, const ambulo__xml_node *node) {
-  int first = find_body(o, name);
-  if (first >= 0) {
-    if (first > 0)
-      ambulo__xml_error(o->xml, node, AMBULO_E_MODEL, NULL,
-                        "two bodies are named '%.60s' (the first one at line %d); expected "
-                        "different names",
-                        name, o->bodies[first].node->line);
-    return;
+static int read_axis(building *b, const ambulo__xml_node *node, transform_axis *a) {
+  const char *names = ambulo__osim_text(node, "coordinates", NULL);
+  ambulo__xml *xml = b->o->xml;
+  *a = (transform_axis){.node = node, .coordinate = -1, .function = ambulo__osim_function(node)};
+  a->axis[0] = 1.0;
+  (void)ambulo__xml_child_vector(xml, node, "axis", 3, 0, a->axis);
+  if (!ambulo__tree_axis(b->o->tree, a->axis, b->joint->name, node)) return 0;
+  if (names[0]) {
+    a->coordinate = find_coordinate(b, names);
+    if (a->coordinate < 0) {
+      ambulo__xml_error(
+          xml, node, AMBULO_E_MODEL,
+          strpbrk(names, " \t\n") ? "functions of several coordinates are not read" : NULL,
+          "unknown coordinate of joint '%.60s' (got '%.60s'); expected one of the joint",
+          b->joint->name, names);
+      return 0;
+    }
   }
-  if (o->body_count > AMBULO__MAX_LINKS) {
-    ambulo__xml_error(o->xml, node, AMBULO_E_LIMIT, NULL, "too many bodies; expected at most %d",
-                      (int)AMBULO__MAX_LINKS);
-    return;
+  a->linear = 1;
+  if (a->function) a->linear = ambulo__osim_is_linear(b->o, a->function, &a->slope, &a->offset);
+  return 1;
+}
+
+/* a function that is no joint of its own: frozen */
+static void put_frozen(building *b, const transform_axis *a, int slides) {
+  const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
+  double value = ambulo__osim_value(b->o, a->function, c->value);
+  put_still(b, slides, a->axis, value);
+  double most =
+      c->held ? 0.0 : ambulo__osim_travel(b->o, a->function, 1.0, c->node, c->value, value);
+  if (most == 0.0) return;
+  ambulo__tree_note(b->o->tree, a->node,
+                    "%s: %s follows %s by a %s: frozen at %s = %s; over its range it %s up to "
+                    "%s %s",
+                    b->joint->name,
+                    ambulo__xml_attribute(a->node, "name") ? ambulo__xml_attribute(a->node, "name")
+                                                           : "an axis",
+                    c->name, a->function->name, c->name, ambulo__number_text(c->value).text,
+                    slides ? "slides by" : "turns by",
+                    ambulo__three_digits(slides ? 1e3 * most : most * 180.0 / acos(-1.0)).text,
+                    slides ? "mm" : "degrees");
+}
+
+static void put_axis(building *b, const transform_axis *a, int slides) {
+  if (a->coordinate < 0 || (a->linear && a->slope == 0.0)) {
+    double value = a->linear     ? a->offset
+                   : a->function ? ambulo__osim_value(b->o, a->function, 0.0)
+                                 : 0.0;
+    if (value != 0.0) put_still(b, slides, a->axis, value);
+  } else if (a->linear && !b->has_link[a->coordinate]) {
+    put_moving(b, slides, a->axis, a->coordinate, a->slope, a->offset);
+  } else {
+    put_frozen(b, a, slides);
   }
-  if (!ambulo__arena_grow(o->tree->arena, &o->bodies, o->body_count, &o->body_capacity,
-                          sizeof *o->bodies))
-    return;
-  o->bodies[o->body_count++] =
-      (ambulo__osim_body){.name = name, .node = node, .joint = -1, .link = -1};
 }
 
-static ambulo__rigid placement_of(ambulo__osim *o, const ambulo__xml_node *node,
-                                  const char *translation, const char *orientation) {
-  double p[3] = {0, 0, 0}, angles[3] = {0, 0, 0};
-  (void)ambulo__xml_child_vector(o->xml, node, translation, 3, 0, p);
-  (void)ambulo__xml_child_vector(o->xml, node, orientation, 3, 0, angles);
-  return ambulo__rigid_of_xyz(p, angles);
-}
-
-/* ------------------------------------------------------------------------- frames */
-
-/* an offset frame of that name below `node`, three levels deep at most (sets, objects, frames) */
-static const ambulo__xml_node *find_offset(const ambulo__xml_node *node, const char *name,
-                                           int depth) {
-  for (const ambulo__xml_node *n = node ? node->first : NULL; n; n = n->next) {
-    if (ambulo__xml_is(n, "PhysicalOffsetFrame") && strcmp(ambulo__xml_name(n), name) == 0)
-      return n;
-    const ambulo__xml_node *inner = depth > 0 ? find_offset(n, name, depth - 1) : NULL;
-    if (inner) return inner;
+/* Which of the axes that are linear in a coordinate gets it: a turn rather than a slide. */
+static void choose(building *b, transform_axis *axes) {
+  for (int c = 0; c < b->count; c++) {
+    int owner = -1;
+    for (int i = 0; i < AXES; i++)
+      if (axes[i].coordinate == c && axes[i].linear && axes[i].slope != 0.0 && owner < 0) owner = i;
+    for (int i = 0; i < AXES; i++)
+      if (axes[i].coordinate == c && i != owner && axes[i].slope != 0.0) axes[i].linear = 0;
+    if (owner < 0 && !b->coordinates[c].held)
+      ambulo__tree_note(b->o->tree, b->coordinates[c].node,
+                        "%s drives no axis linearly: it is left out, and its joint is held at %s",
+                        b->coordinates[c].name, ambulo__number_text(b->coordinates[c].value).text);
   }
-  return NULL;
 }
 
-static int unknown_frame(ambulo__osim *o, const ambulo__xml_node *node, const char *text) {
-  const char **names = ambulo__arena_take(o->tree->arena, (size_t)o->body_count + 1, sizeof *names);
-  for (int i = 0; names && i < o->body_count; i++) names[i] = o->bodies[i].name;
-  ambulo__xml_error(
-      o->xml, node, AMBULO_E_MODEL,
-      ambulo__xml_nearest(o->xml, ambulo__xml_last_name(text), names, o->body_count),
-      "unknown frame (got '%.80s'); expected a body, or a frame that is offset from one", text);
-  return -1;
-}
-
-int ambulo__osim_frame(ambulo__osim *o, const ambulo__xml_node *scope, const ambulo__xml_node *node,
-                       const char *text, ambulo__rigid *placement) {
-  enum { MOST_OFFSETS = 16 };
-  *placement = ambulo__rigid_identity();
-  const char *at = text;
-  for (int step = 0; step < MOST_OFFSETS; step++) {
-    const char *name = ambulo__xml_last_name(at);
-    const ambulo__xml_node *offset = find_offset(scope, name, 2);
-    int body = find_body(o, name);
-    if (!offset && body < 0) offset = find_offset(o->model, name, 4);
-    if (!offset) return body >= 0 ? body : unknown_frame(o, node, text);
-    ambulo__rigid here = placement_of(o, offset, "translation", "orientation");
-    *placement = ambulo__rigid_times(&here, placement);
-    at = ambulo__osim_text(offset, "socket_parent", "socket_parent_connectee_name");
+static int custom(building *b) {
+  static const char *const names[AXES] = {"rotation1",    "rotation2",    "rotation3",
+                                          "translation1", "translation2", "translation3"};
+  const ambulo__xml_node *spatial = ambulo__xml_child(b->joint->node, "SpatialTransform");
+  transform_axis axes[AXES];
+  for (int i = 0; i < AXES; i++)
+    axes[i] = (transform_axis){
+        .coordinate = -1, .linear = 1, .axis = {i % 3 == 0, i % 3 == 1, i % 3 == 2}};
+  AMBULO__XML_EACH (n, spatial, "TransformAxis") {
+    const char *name = ambulo__xml_attribute(n, "name");
+    int i = ambulo__xml_choice(b->o->xml, n, "transform axis", name ? name : "", names, AXES);
+    if (i < 0 || !read_axis(b, n, &axes[i])) return 0;
   }
-  return unknown_frame(o, node, text);
+  choose(b, axes);
+  for (int i = 3; i < AXES; i++) put_axis(b, &axes[i], 1);
+  for (int i = 0; i < 3; i++) put_axis(b, &axes[i], 0);
+  return 1;
 }
 
-/* ------------------------------------------------------------------------- joints */
+/* -------------------------------------------------------------------------- joints */
 
-static void add_joint(ambulo__osim *o, const ambulo__osim_joint *joint) {
-  if (joint->parent < 0 || joint->child < 0) return;
-  ambulo__osim_body *child = &o->bodies[joint->child];
-  if (joint->child == 0) {
-    ambulo__xml_error(o->xml, joint->node, AMBULO_E_MODEL, "exchange its parent and its child",
-                      "the ground is the child of joint '%.60s'; expected it to be a parent",
-                      joint->name);
-    return;
+enum { WELD, PIN, SLIDER, UNIVERSAL, GIMBAL, BALL, FREE, PLANAR, CUSTOM, TYPES };
+
+static int put_joint(building *b, int type) {
+  switch (type) {
+  case PIN:
+    simple(b, 0, 2, 0);
+    break;
+  case SLIDER:
+    simple(b, 1, 0, 0);
+    break;
+  case UNIVERSAL:
+    for (int i = 0; i < 2; i++) simple(b, 0, i, i);
+    break;
+  case GIMBAL:
+  case BALL:
+    for (int i = 0; i < 3; i++) simple(b, 0, i, i);
+    break;
+  case FREE:
+    for (int i = 0; i < 3; i++) simple(b, 1, i, 3 + i);
+    for (int i = 0; i < 3; i++) simple(b, 0, i, i);
+    break;
+  case PLANAR:
+    for (int i = 0; i < 2; i++) simple(b, 1, i, 1 + i);
+    simple(b, 0, 2, 0);
+    break;
+  case CUSTOM:
+    return custom(b);
+  default:
+    break; /* a weld */
   }
-  if (child->joint >= 0) {
-    ambulo__xml_error(
-        o->xml, joint->node, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
-        "body '%.60s' is the child of two joints ('%.60s', line %d, and '%.60s'); "
-        "expected a tree",
-        child->name, o->joints[child->joint].name, o->joints[child->joint].node->line, joint->name);
-    return;
+  return 1;
+}
+
+static int type_of(ambulo__osim *o, const ambulo__osim_joint *joint) {
+  static const char *const types[TYPES] = {"WeldJoint",      "PinJoint",    "SliderJoint",
+                                           "UniversalJoint", "GimbalJoint", "BallJoint",
+                                           "FreeJoint",      "PlanarJoint", "CustomJoint"};
+  return ambulo__xml_choice(o->xml, joint->node, "joint", joint->node->name, types, TYPES);
+}
+
+static int add_joint(ambulo__osim *o, const ambulo__osim_joint *joint, int parent) {
+  static const int wanted[TYPES] = {0, 1, 1, 2, 3, 3, 6, 3, -1};
+  int type = type_of(o, joint);
+  if (type < 0) return -1;
+  building b = {.o = o, .joint = joint, .chain = ambulo__chain_begin(o->tree, parent, joint->node)};
+  b.count = ambulo__osim_coordinates(o, joint, MOST_COORDINATES, b.coordinates);
+  if (b.count < 0 || (wanted[type] >= 0 && b.count != wanted[type])) {
+    if (b.count >= 0)
+      ambulo__xml_error(o->xml, joint->node, AMBULO_E_SCHEMA, NULL,
+                        "<%s> '%.60s' has %d coordinates; expected %d", joint->node->name,
+                        joint->name, b.count, wanted[type]);
+    return -1;
   }
-  if (!ambulo__arena_grow(o->tree->arena, &o->joints, o->joint_count, &o->joint_capacity,
-                          sizeof *o->joints))
-    return;
-  child->joint = o->joint_count;
-  o->joints[o->joint_count++] = *joint;
-}
-
-/* version 3: <Body><Joint><PinJoint>, with the name of the parent body */
-static void collect_inner(ambulo__osim *o, int body) {
-  const ambulo__xml_node *holder = ambulo__xml_child(o->bodies[body].node, "Joint");
-  const ambulo__xml_node *node = holder ? holder->first : NULL;
-  if (!node) return;
-  const char *parent = ambulo__osim_text(node, "parent_body", NULL);
-  ambulo__osim_joint joint = {.name = ambulo__xml_name(node), .node = node, .child = body};
-  ambulo__rigid none;
-  joint.parent = ambulo__osim_frame(o, node, node, parent, &none);
-  joint.in_parent = placement_of(o, node, "location_in_parent", "orientation_in_parent");
-  joint.in_child = placement_of(o, node, "location", "orientation");
-  if (ambulo__osim_flag(node, "reverse", 0))
-    ambulo__xml_error(o->xml, node, AMBULO_E_MODEL, NULL,
-                      "joint '%.60s' is reversed; expected the parent to come first", joint.name);
-  add_joint(o, &joint);
-}
-
-/* version 4: <JointSet>, with frames */
-static void collect_listed(ambulo__osim *o, const ambulo__xml_node *node) {
-  ambulo__osim_joint joint = {.name = ambulo__xml_name(node), .node = node};
-  const char *parent =
-      ambulo__osim_text(node, "socket_parent_frame", "socket_parent_frame_connectee_name");
-  const char *child =
-      ambulo__osim_text(node, "socket_child_frame", "socket_child_frame_connectee_name");
-  joint.parent = ambulo__osim_frame(o, node, node, parent, &joint.in_parent);
-  joint.child = ambulo__osim_frame(o, node, node, child, &joint.in_child);
-  add_joint(o, &joint);
-}
-
-static void collect(ambulo__osim *o) {
-  add_body(o, "ground", o->model);
-  for (const ambulo__xml_node *n = ambulo__osim_objects(o->model, "BodySet"); n; n = n->next) {
-    if (ambulo__xml_is(n, "Body"))
-      add_body(o, ambulo__xml_name(n), n);
-    else
-      ambulo__xml_error(o->xml, n, AMBULO_E_SCHEMA, NULL,
-                        "unknown object in BodySet (got <%.40s>); expected <Body>", n->name);
-  }
-  if (o->xml->status || o->tree->arena->failed) return;
-  for (int i = 1; i < o->body_count; i++) collect_inner(o, i);
-  for (const ambulo__xml_node *n = ambulo__osim_objects(o->model, "JointSet"); n; n = n->next)
-    collect_listed(o, n);
+  int first = o->tree->link_count;
+  ambulo__rigid back = ambulo__rigid_inverse(&joint->in_child);
+  ambulo__chain_place(&b.chain, &joint->in_parent);
+  if (!put_joint(&b, type)) return -1;
+  ambulo__chain_place(&b.chain, &back);
+  int link = ambulo__chain_end(&b.chain, o->bodies[joint->child].name);
+  /* what moves the whole body as three or more coordinates has no muscle */
+  for (int i = first; i < o->tree->link_count && joint->parent == 0 && b.count >= 3; i++)
+    o->tree->links[i].coordinate.actuated = 0;
+  return link;
 }
 
 /* ------------------------------------------------------------------------ reading */
@@ -227,7 +297,7 @@ static int hang(ambulo__osim *o, int i) {
   int parent = o->bodies[parent_of(o, i)].link;
   body->reached = 1;
   body->link = body->joint < 0 ? float_freely(o, body, parent)
-                               : ambulo__osim_add_joint(o, &o->joints[body->joint], parent);
+                               : add_joint(o, &o->joints[body->joint], parent);
   if (body->link < 0) return 0;
   read_body(o, body);
   return 1;
@@ -279,7 +349,7 @@ void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {
   tree->up = 'y';
   (void)ambulo__xml_child_vector(tree->xml, model, "gravity", 3, 0, tree->gravity);
   ambulo__tree_gravity(tree);
-  collect(&o);
+  ambulo__osim_collect(&o);
   if (tree->xml->status || tree->arena->failed) return;
   walk(&o);
   if (tree->xml->status || tree->arena->failed) return;

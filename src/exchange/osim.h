@@ -33,7 +33,7 @@ typedef struct ambulo__osim {
   int joint_count, joint_capacity;
 } ambulo__osim;
 
-/* ------------------------------------------------ bodies and frames (osim.c) */
+/* ------------------------------------------------ bodies and frames (osim_bodies.c) */
 
 /* Both lists; an error for what is no tree of bodies. */
 void ambulo__osim_collect(ambulo__osim *o);
@@ -47,11 +47,6 @@ const char *ambulo__osim_text(const ambulo__xml_node *node, const char *name, co
 ambulo__xml_node *ambulo__osim_objects(const ambulo__xml_node *node, const char *set);
 /* true, false, or `otherwise` without */
 int ambulo__osim_flag(const ambulo__xml_node *node, const char *name, int otherwise);
-
-/* ------------------------------------------------------------ joints (osim_joints.c) */
-
-/* Appends a joint and its child; the child's link, or -1. */
-int ambulo__osim_add_joint(ambulo__osim *o, const ambulo__osim_joint *joint, int parent);
 
 /* ------------------------------------------------- coordinates (osim_coordinates.c) */
 

@@ -122,10 +122,10 @@ struct ambulo_fit {
   unsigned long long hash; /* of the fit file, the problem's text, the map and the references */
 };
 
-/* fit_file.c: the number of items or pairs at a node, of which there may be 1 to `most`; 0 after an
- * error. `what` they are: "keys". */
+/* fit_conditions.c: the number of items or pairs at a node, of which there may be 1 to `most`; 0
+ * after an error. `what` they are: "keys". */
 int ambulo__fit_count(const ambulo__yaml_node *node, int most, const char *what);
-/* fit_conditions.c. The document knows the faults; E_MEMORY, E_IO where a file cannot be read. */
+/* The document knows the faults; E_MEMORY, E_IO where a file cannot be read. */
 ambulo_status ambulo__fit_read_conditions(ambulo_fit *fit, const ambulo__yaml_node *node);
 /* The references, once conditions and distance are known. */
 ambulo_status ambulo__fit_read_references(ambulo_fit *fit);

@@ -27,6 +27,15 @@ enum { LIST = 400, LEAST_POINTS = 3 };
 
 static const double least_ratio = 0.1;
 
+int ambulo__fit_count(const ambulo__yaml_node *node, int most, const char *what) {
+  int count = ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_pairs(node)
+                                                          : ambulo__yaml_items(node);
+  if (!node || (count >= 1 && count <= most)) return count;
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d %s; expected 1 to %d", count, what,
+                           most);
+  return 0;
+}
+
 /* ------------------------------------------------------------------ overrides */
 
 static ambulo_status read_set(ambulo_fit *fit, ambulo__fit_condition *c) {

@@ -10,15 +10,6 @@
 
 static const double least_step = 1e-6, radians_per_degree = 0.017453292519943295;
 
-int ambulo__fit_count(const ambulo__yaml_node *node, int most, const char *what) {
-  int count = ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_pairs(node)
-                                                          : ambulo__yaml_items(node);
-  if (!node || (count >= 1 && count <= most)) return count;
-  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d %s; expected 1 to %d", count, what,
-                           most);
-  return 0;
-}
-
 /* ----------------------------------------------------------------- parameters */
 
 /* whether the key stands in an earlier parameter, or earlier in this one */
