@@ -1,10 +1,14 @@
-/* study/batch_listing.c - reading a batch folder's own description (listing.h). */
-#include "study/batch_listing.h"
+/* study/batch_listing.c - what a batch folder says about itself: written, and read back (study.h).
+ */
+#include "base/text_buffer.h"
+#include "formats/atomic_file.h"
+#include "formats/json_text.h"
 #include "formats/file_steps.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
 #include "formats/seal.h"
-#include "formats/yaml_node.h"
+#include "formats/sha256.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -16,7 +20,118 @@
 #define MOST_LIST_BYTES ((size_t)2 << 30)
 #define MOST_DESCRIPTION_BYTES ((size_t)16 << 20)
 
-/* ----------------------------------------------------------------- cases.tsv */
+static const char schema[] = "ambulo-batch/2", unsealed_schema[] = "ambulo-batch/1";
+
+enum { COLUMNS = 3, LISTS = 6 }; /* columns of cases.tsv before the axes: id, key, name */
+
+/* a list of batch.json: texts, each so many bytes behind the one before */
+typedef struct text_list {
+  const char *key;
+  char **first;
+  size_t stride;
+  int count;
+} text_list;
+
+static void lists_of(ambulo_sweep *s, text_list list[LISTS]) {
+  const size_t output = sizeof *s->output, axis = sizeof *s->axis;
+  const text_list lists[LISTS] = {{"outputs", &s->output->path, output, s->outputs},
+                                  {"output_labels", &s->output->label, output, s->outputs},
+                                  {"output_units", &s->output->unit, output, s->outputs},
+                                  {"axes", &s->axis->key, axis, s->axes},
+                                  {"axis_labels", &s->axis->label, axis, s->axes},
+                                  {"axis_units", &s->axis->unit, axis, s->axes}};
+  memcpy(list, lists, sizeof lists);
+}
+
+static char **text_of(const text_list *list, int i) {
+  return (char **)(void *)((char *)(void *)list->first + (size_t)i * list->stride);
+}
+
+/* ------------------------------------------------------------------ writing */
+
+/* tabs and line ends separate cells, so they become blanks inside */
+static void append_cell(ambulo__text_buffer *text, const char *cell) {
+  ambulo__text_append_char(text, '\t');
+  for (; *cell; cell++) ambulo__text_append_char(text, strchr("\t\n\r", *cell) ? ' ' : *cell);
+}
+
+static void list_text(const ambulo_sweep *s, ambulo__text_buffer *text) {
+  ambulo__text_append(text, "id\tkey\tname");
+  for (int i = 0; i < s->axes; i++) append_cell(text, s->axis[i].name);
+  for (int k = 0; k < s->case_count; k++) {
+    ambulo__text_append_format(text, "\n%s\t%016llx", s->cases[k].id, s->cases[k].key);
+    append_cell(text, s->cases[k].name);
+    for (int i = 0; i < s->axes; i++) append_cell(text, ambulo_sweep_value(s, k, i));
+  }
+  ambulo__text_append_char(text, '\n');
+}
+
+static void describe_front(const ambulo__front *f, ambulo__json *json) {
+  ambulo__json_open(json, "front", '{');
+  ambulo__json_open(json, "terms", '[');
+  for (int i = 0; i < f->terms; i++) ambulo__json_text(json, NULL, f->name[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_open(json, "weights", '[');
+  for (int i = 0; i < f->terms; i++) ambulo__json_number(json, NULL, f->own[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_integer(json, "points", f->wanted);
+  ambulo__json_number(json, "least", f->least);
+  ambulo__json_integer(json, "neighbour", f->neighbour);
+  ambulo__json_close(json, '}');
+}
+
+static void describe(const ambulo_sweep *s, const char *digest, ambulo__text_buffer *text) {
+  ambulo__json json = {text, 0, 1};
+  text_list list[LISTS];
+  ambulo_sweep view = *s;
+  lists_of(&view, list);
+  ambulo__json_open(&json, NULL, '{');
+  ambulo__json_text(&json, "schema", schema);
+  ambulo__json_text(&json, "name", s->name);
+  ambulo__json_text(&json, "version", s->version);
+  ambulo__json_text(&json, "sweep", s->path);
+  ambulo__json_text(&json, "base", s->base);
+  ambulo__json_text(&json, "problem_hash", s->problem_hash);
+  ambulo__json_text(&json, "text_hash", s->text_hash);
+  ambulo__json_integer(&json, "cases", s->case_count);
+  ambulo__json_text(&json, "cases_sha256", digest);
+  for (int i = 0; i < LISTS; i++) {
+    ambulo__json_open(&json, list[i].key, '[');
+    for (int k = 0; k < list[i].count; k++) ambulo__json_text(&json, NULL, *text_of(&list[i], k));
+    ambulo__json_close(&json, ']');
+  }
+  ambulo__json_integer(&json, "zipped_axes", s->zipped);
+  if (s->front.terms > 0) describe_front(&s->front, &json);
+  ambulo__seal(text);
+}
+
+static ambulo_status write_text(const char *directory, const char *name,
+                                const ambulo__text_buffer *text, const ambulo_allocator *a,
+                                ambulo_diagnostics *diagnostics) {
+  char *path = ambulo__join_paths(a, directory, name, NULL);
+  ambulo_status status = path ? ambulo__text_status(text) : AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo__write_file(path, ambulo__text_data(text), text->length, 1, a, diagnostics);
+  ambulo__free(a, path);
+  return status;
+}
+
+ambulo_status ambulo__study_describe(const ambulo_sweep *s, const char *directory,
+                                     const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  ambulo__text_buffer text;
+  char digest[AMBULO__SHA256_TEXT];
+  ambulo__text_init(&text, a);
+  list_text(s, &text);
+  ambulo__sha256_of(ambulo__text_data(&text), text.length, digest);
+  ambulo_status status = write_text(directory, "cases.tsv", &text, a, diagnostics);
+  ambulo__text_clear(&text);
+  describe(s, digest, &text);
+  if (!status) status = write_text(directory, "batch.json", &text, a, diagnostics);
+  ambulo__text_free(&text);
+  return status;
+}
+
+/* ------------------------------------------------------------------ reading */
 
 /* inside this file; a caller gets E_IO */
 static const ambulo_status DAMAGED = AMBULO_E_PARSE;
@@ -28,243 +143,179 @@ static ambulo_status corrupt(ambulo_diagnostics *diagnostics, const char *path, 
   return DAMAGED;
 }
 
-/* cuts the text into cells; every line has as many as the first */
-static ambulo_status cut(ambulo__listing *l, size_t length, const char *path,
-                         ambulo_diagnostics *diagnostics) {
-  int lines = 0, columns = 1;
-  for (size_t i = 0; i < length; i++) lines += l->text[i] == '\n';
-  for (const char *c = l->text; *c && *c != '\n'; c++) columns += *c == '\t';
-  if (lines < 1 || columns < AMBULO__LISTING_AXES || l->text[length - 1] != '\n')
-    return corrupt(diagnostics, path, 1);
-  l->cell = ambulo__alloc(&l->allocator, (size_t)lines * (size_t)columns, sizeof *l->cell);
-  if (!l->cell) return AMBULO_E_MEMORY;
-  l->cases = lines - 1;
-  l->columns = columns;
-  char *c = l->text;
-  for (int line = 0; line < lines; line++) {
-    for (int column = 0; column < columns; column++) {
-      l->cell[(size_t)line * (size_t)columns + (size_t)column] = c;
-      c += strcspn(c, "\t\n");
-      if (*c != (column + 1 < columns ? '\t' : '\n')) return corrupt(diagnostics, path, line + 1);
-      *c++ = '\0';
-    }
-  }
-  return AMBULO_OK;
-}
-
-/* 16 hexadecimal digits */
-static int is_key(const char *text) {
+int ambulo__read_key(const char *text, unsigned long long *key) {
+  *key = strtoull(text, NULL, 16);
   return strlen(text) == 16 && strspn(text, "0123456789abcdef") == 16;
 }
 
-static ambulo_status check_keys(const ambulo__listing *l, const char *path,
+/* 1: all columns of a line, of which the first three are `head` */
+static int read_line(const ambulo_sweep *s, char **at, char *head[COLUMNS], const char **cell) {
+  for (int i = 0; i < COLUMNS + s->axes; i++) {
+    char *text = *at, end = i + 1 < COLUMNS + s->axes ? '\t' : '\n';
+    *at += strcspn(text, "\t\n");
+    if (**at != end) return 0;
+    *(*at)++ = '\0';
+    if (i < COLUMNS)
+      head[i] = text;
+    else
+      cell[i - COLUMNS] = text;
+  }
+  return 1;
+}
+
+static ambulo_status read_lines(ambulo_sweep *s, size_t length, int cases, const char *path,
                                 ambulo_diagnostics *diagnostics) {
-  for (int k = 0; k < l->cases; k++)
-    if (!is_key(ambulo__listing_cell(l, k, AMBULO__LISTING_KEY)))
+  char *at = s->list, *head[COLUMNS];
+  const char *title[AMBULO__SWEEP_AXES];
+  if (!read_line(s, &at, head, title)) return corrupt(diagnostics, path, 1);
+  for (int i = 0; i < s->axes; i++) {
+    s->axis[i].name = ambulo__strdup(&s->allocator, title[i]);
+    if (!s->axis[i].name) return AMBULO_E_MEMORY;
+  }
+  s->cases = ambulo__alloc(&s->allocator, (size_t)cases, sizeof *s->cases);
+  s->cell = ambulo__alloc(&s->allocator, (size_t)cases * (size_t)s->axes, sizeof *s->cell);
+  if (!s->cases || !s->cell) return AMBULO_E_MEMORY;
+  for (int k = 0; k < cases; k++) {
+    unsigned long long key = 0;
+    if (!read_line(s, &at, head, s->cell + (size_t)k * (size_t)s->axes) ||
+        !ambulo__read_key(head[1], &key))
       return corrupt(diagnostics, path, k + 2);
-  return AMBULO_OK;
-}
-
-/* ---------------------------------------------------------------- batch.json */
-
-static char *copy_text(const ambulo__listing *l, const ambulo__yaml_node *root, const char *key) {
-  return ambulo__strdup(&l->allocator, ambulo__yaml_text(ambulo__yaml_require(root, key)));
-}
-
-static void free_texts(const ambulo_allocator *a, char **texts, int count) {
-  for (int i = 0; texts && i < count; i++) ambulo__free(a, texts[i]);
-  ambulo__free(a, texts);
-}
-
-/* *texts of the list under a key, which has `count` of them; *right = 0: another number */
-static ambulo_status copy_texts(const ambulo__listing *l, const ambulo__yaml_node *root,
-                                const char *key, int count, char ***texts, int *right) {
-  const ambulo__yaml_node *node = ambulo__yaml_require(root, key);
-  *right &= ambulo__yaml_items(node) == count;
-  *texts = ambulo__alloc(&l->allocator, (size_t)count, sizeof **texts);
-  for (int i = 0; *texts && i < count; i++) {
-    (*texts)[i] = ambulo__strdup(&l->allocator, ambulo__yaml_text(ambulo__yaml_item(node, i)));
-    if (!(*texts)[i]) return AMBULO_E_MEMORY;
+    s->cases[s->case_count++] =
+        (ambulo__sweep_case){.id = head[0], .name = head[2], .key = key, .previous = -1};
   }
-  return *texts ? AMBULO_OK : AMBULO_E_MEMORY;
+  return at == s->list + length ? AMBULO_OK : corrupt(diagnostics, path, cases + 2);
 }
 
-/* `front`, where the batch is one; its terms are the axes */
-static ambulo_status read_front(ambulo__listing *l, const ambulo__yaml_node *node, int *right) {
-  if (!node) return AMBULO_OK;
-  ambulo__listing_front *f = &l->front;
-  int terms = ambulo__yaml_items(ambulo__yaml_require(node, "terms"));
-  *right &= terms == l->axes && terms >= 2 && terms <= AMBULO__FRONT_TERMS;
-  if (!*right) return AMBULO_OK;
-  f->terms = terms;
-  f->points = ambulo__yaml_integer(ambulo__yaml_require(node, "points"), 2, INT_MAX, 2);
-  f->least = ambulo__yaml_number(ambulo__yaml_require(node, "least"), 0.0);
-  const ambulo__yaml_node *own = ambulo__yaml_require(node, "weights");
-  for (int i = 0; i < terms; i++) f->own[i] = ambulo__yaml_number(ambulo__yaml_item(own, i), 0.0);
-  l->front_text = copy_text(l, node, "text");
-  ambulo_status status = copy_texts(l, node, "terms", terms, &f->name, right);
-  return l->front_text ? status : AMBULO_E_MEMORY;
-}
-
-/* E_MEMORY, or AMBULO_OK, and then the document knows what was wrong, or *cases is -1 */
-static ambulo_status read_fields(ambulo__listing *l, const ambulo__yaml_node *root, int *cases) {
-  int right = 1;
-  l->name = copy_text(l, root, "name");
-  l->version = copy_text(l, root, "version");
-  l->problem_hash = copy_text(l, root, "problem_hash");
-  l->text_hash = copy_text(l, root, "text_hash");
-  l->digest = copy_text(l, root, "cases_sha256");
-  if (!l->name || !l->version || !l->problem_hash || !l->text_hash || !l->digest)
-    return AMBULO_E_MEMORY;
-  *cases = ambulo__yaml_integer(ambulo__yaml_require(root, "cases"), 0, INT_MAX, 0);
-  l->outputs = ambulo__yaml_items(ambulo__yaml_require(root, "outputs"));
-  l->axes = ambulo__yaml_items(ambulo__yaml_require(root, "axes"));
-  l->zipped = ambulo__yaml_integer(ambulo__yaml_require(root, "zipped_axes"), 0, l->axes, 0);
-  const struct {
-    const char *key;
-    int count;
-    char ***texts;
-  } lists[] = {{"outputs", l->outputs, &l->output},
-               {"output_labels", l->outputs, &l->output_label},
-               {"output_units", l->outputs, &l->output_unit},
-               {"axis_labels", l->axes, &l->axis_label},
-               {"axis_units", l->axes, &l->axis_unit}};
-  ambulo_status status = AMBULO_OK;
-  for (size_t i = 0; i < sizeof lists / sizeof *lists && !status; i++)
-    status = copy_texts(l, root, lists[i].key, lists[i].count, lists[i].texts, &right);
-  if (!status) status = read_front(l, ambulo__yaml_get(root, "front"), &right);
-  if (!right) *cases = -1;
-  return status;
-}
-
-static ambulo_status other_version(ambulo_diagnostics *diagnostics, const char *path,
-                                   const char *own) {
-  int earlier = strcmp(own, AMBULO__LISTING_WITHOUT_CHECKSUMS) == 0;
-  ambulo__place place = {path, 0, 0, NULL};
-  return ambulo__error(
-      diagnostics, AMBULO_E_PROBLEM, place,
-      "'ambulo batch' with --force computes its cases again; or give another folder",
-      "the folder was filled by %s version of ambulo (%.40s%s); expected %s",
-      earlier ? "an earlier" : "another", own, earlier ? ", without checksums" : "",
-      AMBULO__LISTING_SCHEMA);
-}
-
-/* *cases: as many as batch.json says */
-static ambulo_status read_description(ambulo__listing *l, const char *path,
-                                      ambulo_diagnostics *diagnostics, int *cases) {
-  char *text = NULL;
-  size_t length = 0;
-  ambulo__yaml *document = NULL;
-  ambulo_status status =
-      ambulo__read_file(path, MOST_DESCRIPTION_BYTES, &l->allocator, diagnostics, &text, &length);
-  if (status) return status;
-  status = ambulo__yaml_load_text(text, length, path, &l->allocator, NULL, &document);
-  if (!status) {
-    const ambulo__yaml_node *root = ambulo__yaml_root(document);
-    const char *own = ambulo__yaml_text(ambulo__yaml_require(root, "schema"));
-    int sealed = ambulo__seal_holds(text, length);
-    if (strcmp(own, AMBULO__LISTING_WITHOUT_CHECKSUMS) == 0 ||
-        (sealed && strcmp(own, AMBULO__LISTING_SCHEMA) != 0)) {
-      status = other_version(diagnostics, path, own);
-    } else if (!sealed) {
-      status = corrupt(diagnostics, path, 0);
-    } else {
-      status = read_fields(l, root, cases);
-      if (!status && (*cases < 0 || ambulo__yaml_finish(document)))
-        status = corrupt(diagnostics, path, 0);
-    }
-  } else if (status != AMBULO_E_MEMORY) {
-    status = corrupt(diagnostics, path, 0);
-  }
-  ambulo__yaml_free(document);
-  ambulo__free(&l->allocator, text);
-  return status;
-}
-
-static ambulo_status read_cases(ambulo__listing *l, const char *path, int cases,
-                                ambulo_diagnostics *diagnostics) {
+static ambulo_status read_list(ambulo_sweep *s, const char *path, int cases, const char *wanted,
+                               ambulo_diagnostics *diagnostics) {
   char digest[AMBULO__SHA256_TEXT];
   size_t length = 0;
   struct stat entry;
   if (stat(path, &entry) != 0 && errno == ENOENT) return corrupt(diagnostics, path, 0);
   ambulo_status status =
-      ambulo__read_file(path, MOST_LIST_BYTES, &l->allocator, diagnostics, &l->text, &length);
+      ambulo__read_file(path, MOST_LIST_BYTES, &s->allocator, diagnostics, &s->list, &length);
   if (status) return status;
-  ambulo__sha256_of(l->text, length, digest);
-  if (strcmp(digest, l->digest) != 0 || length == 0) return corrupt(diagnostics, path, 0);
-  status = cut(l, length, path, diagnostics);
-  if (!status && (l->columns != AMBULO__LISTING_AXES + l->axes || l->cases != cases))
-    status = corrupt(diagnostics, path, 1);
-  return status ? status : check_keys(l, path, diagnostics);
+  ambulo__sha256_of(s->list, length, digest);
+  if (strcmp(digest, wanted) != 0) return corrupt(diagnostics, path, 0);
+  return read_lines(s, length, cases, path, diagnostics);
 }
 
-ambulo_status ambulo__listing_try(const char *directory, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo__listing *listing,
-                                  int *damaged) {
-  ambulo__listing l;
+static void copy_short(const ambulo__yaml_node *root, const char *key, char *text, size_t size) {
+  (void)snprintf(text, size, "%s", ambulo__yaml_text(ambulo__yaml_require(root, key)));
+}
+
+/* *right = 0: not what this version writes */
+static ambulo_status read_front(ambulo_sweep *s, const ambulo__yaml_node *node, int *right) {
+  if (!node) return AMBULO_OK;
+  ambulo__front *f = &s->front;
+  const ambulo__yaml_node *terms = ambulo__yaml_require(node, "terms");
+  const ambulo__yaml_node *own = ambulo__yaml_require(node, "weights");
+  f->terms = ambulo__yaml_items(terms);
+  *right &= f->terms == s->axes && f->terms >= 2 && f->terms <= AMBULO__FRONT_TERMS;
+  if (!*right) f->terms = 0;
+  f->wanted = ambulo__yaml_integer(ambulo__yaml_require(node, "points"), 2, INT_MAX, 2);
+  f->least = ambulo__yaml_number(ambulo__yaml_require(node, "least"), 0.0);
+  f->neighbour = ambulo__yaml_integer(ambulo__yaml_get(node, "neighbour"), 0, 1, 0);
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < f->terms && !status; i++) {
+    f->own[i] = ambulo__yaml_number(ambulo__yaml_item(own, i), 0.0);
+    status = ambulo__sweep_copy(s, ambulo__yaml_item(terms, i), &f->name[i]);
+  }
+  return status;
+}
+
+/* E_MEMORY, or AMBULO_OK, and then the document knows what was wrong, or *right is 0 */
+static ambulo_status read_fields(ambulo_sweep *s, const ambulo__yaml_node *root, int *right) {
+  copy_short(root, "version", s->version, sizeof s->version);
+  copy_short(root, "problem_hash", s->problem_hash, sizeof s->problem_hash);
+  copy_short(root, "text_hash", s->text_hash, sizeof s->text_hash);
+  ambulo_status status = ambulo__sweep_copy(s, ambulo__yaml_require(root, "name"), &s->name);
+  s->outputs = ambulo__yaml_items(ambulo__yaml_require(root, "outputs"));
+  s->axes = ambulo__yaml_items(ambulo__yaml_require(root, "axes"));
+  *right = s->axes <= AMBULO__SWEEP_AXES;
+  if (!*right) s->axes = 0;
+  s->zipped = ambulo__yaml_integer(ambulo__yaml_require(root, "zipped_axes"), 0, s->axes, 0);
+  s->output = ambulo__alloc(&s->allocator, (size_t)s->outputs, sizeof *s->output);
+  if (!s->output) return AMBULO_E_MEMORY;
+  text_list list[LISTS];
+  lists_of(s, list);
+  for (int i = 0; i < LISTS; i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_require(root, list[i].key);
+    *right &= ambulo__yaml_items(node) == list[i].count;
+    for (int k = 0; k < list[i].count && *right && !status; k++)
+      status = ambulo__sweep_copy(s, ambulo__yaml_item(node, k), text_of(&list[i], k));
+  }
+  return status ? status : read_front(s, ambulo__yaml_get(root, "front"), right);
+}
+
+static ambulo_status other_version(ambulo_diagnostics *diagnostics, const char *path,
+                                   const char *own) {
+  ambulo__place place = {path, 0, 0, NULL};
+  return ambulo__error(
+      diagnostics, AMBULO_E_PROBLEM, place,
+      "'ambulo batch' with --force computes its cases again; or give another folder",
+      "the folder was filled by another version of ambulo (%.40s); expected %s", own, schema);
+}
+
+/* *cases, `digest`: of the list, as batch.json says */
+static ambulo_status read_description(ambulo_sweep *s, const char *path, int *cases,
+                                      char digest[AMBULO__SHA256_TEXT],
+                                      ambulo_diagnostics *diagnostics) {
+  char *text = NULL;
+  size_t length = 0;
+  int right = 0;
+  ambulo__yaml *document = NULL;
+  ambulo_status status =
+      ambulo__read_file(path, MOST_DESCRIPTION_BYTES, &s->allocator, diagnostics, &text, &length);
+  if (status) return status;
+  status = ambulo__yaml_load_text(text, length, path, &s->allocator, NULL, &document);
+  if (!status) {
+    const ambulo__yaml_node *root = ambulo__yaml_root(document);
+    const char *own = ambulo__yaml_text(ambulo__yaml_require(root, "schema"));
+    int ours = strcmp(own, schema) == 0, sealed = ambulo__seal_holds(text, length);
+    *cases = ambulo__yaml_integer(ambulo__yaml_require(root, "cases"), 0, AMBULO__SWEEP_CASES, 0);
+    copy_short(root, "cases_sha256", digest, AMBULO__SHA256_TEXT);
+    if (!ours && (sealed || strcmp(own, unsealed_schema) == 0))
+      status = other_version(diagnostics, path, own);
+    else if (ours && sealed)
+      status = read_fields(s, root, &right);
+    right = right && !status && !ambulo__yaml_finish(document);
+  }
+  if (!right && status != AMBULO_E_MEMORY && status != AMBULO_E_PROBLEM)
+    status = corrupt(diagnostics, path, 0);
+  ambulo__yaml_free(document);
+  ambulo__free(&s->allocator, text);
+  return status;
+}
+
+ambulo_status ambulo__study_try(const char *directory, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo_sweep **study,
+                                int *damaged) {
+  ambulo_allocator a = ambulo__allocator_or_default(allocator);
+  char digest[AMBULO__SHA256_TEXT] = "";
   int cases = 0;
-  memset(&l, 0, sizeof l);
-  l.allocator = ambulo__allocator_or_default(allocator);
-  char *list = ambulo__join_paths(&l.allocator, directory, "cases.tsv", NULL);
-  char *description = ambulo__join_paths(&l.allocator, directory, "batch.json", NULL);
-  ambulo_status status = list && description ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status) status = read_description(&l, description, diagnostics, &cases);
-  if (!status) status = read_cases(&l, list, cases, diagnostics);
-  ambulo__free(&l.allocator, list);
-  ambulo__free(&l.allocator, description);
+  *damaged = 0;
+  ambulo_sweep *s = ambulo__alloc(&a, 1, sizeof *s);
+  if (!s) return AMBULO_E_MEMORY;
+  s->allocator = a;
+  s->path = ambulo__join_paths(&a, directory, "batch.json", NULL);
+  char *list = ambulo__join_paths(&a, directory, "cases.tsv", NULL);
+  ambulo_status status = list && s->path ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) status = read_description(s, s->path, &cases, digest, diagnostics);
+  if (!status) status = read_list(s, list, cases, digest, diagnostics);
+  ambulo__free(&a, list);
   *damaged = status == DAMAGED;
   if (status) {
-    ambulo__listing_free(&l);
+    ambulo_sweep_free(s);
   } else {
-    *listing = l;
+    *study = s;
   }
   return *damaged ? AMBULO_E_IO : status;
 }
 
-ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo__listing *listing) {
+ambulo_status ambulo__study_load(const char *directory, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo_sweep **study) {
   int damaged;
   ambulo_status status = ambulo__expect_path(directory, "batch folder", diagnostics);
-  if (status) return status;
-  return ambulo__listing_try(directory, allocator, diagnostics, listing, &damaged);
-}
-
-void ambulo__listing_free(ambulo__listing *l) {
-  const ambulo_allocator *a = &l->allocator;
-  free_texts(a, l->output, l->outputs);
-  free_texts(a, l->output_label, l->outputs);
-  free_texts(a, l->output_unit, l->outputs);
-  free_texts(a, l->axis_label, l->axes);
-  free_texts(a, l->axis_unit, l->axes);
-  free_texts(a, l->front.name, l->front.terms);
-  ambulo__free(a, l->front_text);
-  ambulo__free(a, l->digest);
-  ambulo__free(a, l->name);
-  ambulo__free(a, l->version);
-  ambulo__free(a, l->problem_hash);
-  ambulo__free(a, l->text_hash);
-  ambulo__free(a, (void *)l->cell);
-  ambulo__free(a, l->text);
-  ambulo__listing empty;
-  memset(&empty, 0, sizeof empty);
-  empty.allocator = *a;
-  *l = empty;
-}
-
-const char *ambulo__listing_cell(const ambulo__listing *l, int index, int column) {
-  return l->cell[((size_t)index + 1) * (size_t)l->columns + (size_t)column];
-}
-
-const char *ambulo__listing_title(const ambulo__listing *l, int column) {
-  return l->cell[column];
-}
-
-int ambulo__listing_output(const ambulo__listing *l, const char *name) {
-  for (int i = 0; i < l->outputs; i++)
-    if (strcmp(l->output_label[i], name) == 0 || strcmp(l->output[i], name) == 0) return i;
-  return -1;
-}
-
-unsigned long long ambulo__listing_key(const ambulo__listing *l, int index) {
-  return strtoull(ambulo__listing_cell(l, index, AMBULO__LISTING_KEY), NULL, 16);
+  return status ? status : ambulo__study_try(directory, allocator, diagnostics, study, &damaged);
 }

@@ -1,17 +1,25 @@
-/* study/batch_worker.c - see worker.h.
+/* study/batch_worker.c - the process of one case: started, and what its end means.
  *
  * The worker limits its own address space and asks to die with its parent (src/cli/worker.c):
- * it is told by AMBULO_WORKER="<parent process> <megabytes>". */
-#include "study/batch_worker.h"
+ * it is told by AMBULO_WORKER="<parent process> <megabytes>".
+ *
+ * Recorded: whatever the case itself brought about (a verdict, invalid input, a crash, its time
+ * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
+ * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
+#include "base/machine.h"
 #include "formats/file_steps.h"
-#include "study/case_path.h"
+#include "formats/read_file.h"
+#include "study/batch.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* a shared library of macOS has no `environ` of its own (untested) */
@@ -28,7 +36,7 @@ typedef struct command {
   const ambulo_allocator *allocator;
   char *result, *log, *start;
   const char **argument, **variable; /* both end with NULL */
-  char told[64];
+  char limits[64];
 } command;
 
 static void free_command(command *c) {
@@ -54,22 +62,20 @@ static int fill_environment(command *c, int megabytes) {
       continue;
     c->variable[kept++] = environ[i];
   }
-  (void)snprintf(c->told, sizeof c->told, "AMBULO_WORKER=%ld %d", (long)getpid(), megabytes);
+  (void)snprintf(c->limits, sizeof c->limits, "AMBULO_WORKER=%ld %d", (long)getpid(), megabytes);
   c->variable[kept++] = "OPENBLAS_NUM_THREADS=1";
-  c->variable[kept] = c->told;
+  c->variable[kept] = c->limits;
   return 1;
 }
 
-static int fill_command(command *c, const ambulo__worker_job *job) {
+static int fill_command(command *c, const ambulo__supervisor *batch, int index, int from) {
   const ambulo_allocator *a = c->allocator;
-  const ambulo_case *one = job->one;
-  c->result = ambulo__case_path(a, job->directory, one->id, "");
-  c->log = ambulo__case_path(a, job->directory, one->id, ".log");
-  if (job->start_id)
-    c->start = ambulo__case_path(a, job->directory, job->start_id, "/solution.yaml");
-  c->argument =
-      ambulo__alloc(a, FIXED_ARGUMENTS + 2 * (size_t)one->override_count, sizeof *c->argument);
-  if (!c->result || !c->log || !c->argument || (job->start_id && !c->start)) return 0;
+  const ambulo__sweep_case *all = batch->sweep->cases, *one = &all[index];
+  c->result = ambulo__case_path(a, batch->directory, one->id, "");
+  c->log = ambulo__case_path(a, batch->directory, one->id, ".log");
+  if (from >= 0) c->start = ambulo__case_path(a, batch->directory, all[from].id, "/solution.yaml");
+  c->argument = ambulo__alloc(a, FIXED_ARGUMENTS + 2 * (size_t)one->overrides, sizeof *c->argument);
+  if (!c->result || !c->log || !c->argument || (from >= 0 && !c->start)) return 0;
   const char *fixed[] = {"ambulo", "solve", "--force", "--quiet", "-o", c->result};
   size_t count = sizeof fixed / sizeof *fixed;
   memcpy(c->argument, fixed, sizeof fixed);
@@ -77,12 +83,12 @@ static int fill_command(command *c, const ambulo__worker_job *job) {
     c->argument[count++] = "--start";
     c->argument[count++] = c->start;
   }
-  for (int i = 0; i < one->override_count; i++) {
+  for (int i = 0; i < one->overrides; i++) {
     c->argument[count++] = "--set";
-    c->argument[count++] = one->overrides[i];
+    c->argument[count++] = one->override[i];
   }
-  c->argument[count] = job->base;
-  return fill_environment(c, job->megabytes);
+  c->argument[count] = batch->sweep->base;
+  return fill_environment(c, batch->case_megabytes);
 }
 
 static int prepare(posix_spawn_file_actions_t *files, posix_spawnattr_t *attributes,
@@ -123,16 +129,201 @@ static int spawn(const command *c, const char *program, pid_t *process) {
   return fault;
 }
 
-ambulo_status ambulo__worker_start(const ambulo__worker_job *job, const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, pid_t *process) {
-  command c;
-  memset(&c, 0, sizeof c);
-  c.allocator = allocator;
-  ambulo_status status = AMBULO_E_MEMORY;
-  if (fill_command(&c, job)) {
-    errno = spawn(&c, job->program ? job->program : "/proc/self/exe", process);
-    status = errno ? ambulo__io_error(diagnostics, c.log, "start a worker that writes") : AMBULO_OK;
+/* ------------------------------------------------------------------- folders */
+
+/* result folders are flat */
+static void remove_flat(int parent, const char *name) {
+  if (unlinkat(parent, name, 0) == 0) return;
+  int file = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  DIR *stream = file >= 0 ? fdopendir(file) : NULL;
+  if (file >= 0 && !stream) close(file);
+  if (stream) {
+    for (struct dirent *e = readdir(stream); e; e = readdir(stream)) {
+      if (e->d_name[0] != '.') (void)unlinkat(file, e->d_name, 0);
+    }
+    closedir(stream);
+  }
+  (void)unlinkat(parent, name, AT_REMOVEDIR);
+}
+
+void ambulo__clean_folder(const char *path, const char *begin) {
+  DIR *stream = opendir(path);
+  if (!stream) return;
+  for (struct dirent *e = readdir(stream); e; e = readdir(stream)) {
+    if (strncmp(e->d_name, begin, strlen(begin)) == 0 &&
+        (strstr(e->d_name, ".tmp-") || strstr(e->d_name, ".old-")))
+      remove_flat(dirfd(stream), e->d_name);
+  }
+  closedir(stream);
+}
+
+/* the folder that holds a case's, to be freed */
+static char *fan_of(const ambulo__supervisor *batch, const char *id) {
+  char *path = ambulo__case_path(batch->allocator, batch->directory, id, "");
+  if (path) *strrchr(path, '/') = '\0';
+  return path;
+}
+
+/* what its killed worker left */
+static void clean_case(const ambulo__supervisor *batch, const char *id) {
+  char *fan = fan_of(batch, id);
+  if (fan) ambulo__clean_folder(fan, id);
+  ambulo__free(batch->allocator, fan);
+}
+
+/* the folder for the result, without one that is damaged or of other inputs */
+static ambulo_status make_place(const ambulo__supervisor *batch, const char *id) {
+  const ambulo_allocator *a = batch->allocator;
+  char *fan = fan_of(batch, id), *result = ambulo__case_path(a, batch->directory, id, "");
+  ambulo_status status = fan && result ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status && mkdir(fan, 0777) != 0 && errno != EEXIST)
+    status = ambulo__io_error(batch->diagnostics, fan, "create the folder");
+  if (!status) remove_flat(AT_FDCWD, result);
+  ambulo__free(a, fan);
+  ambulo__free(a, result);
+  return status;
+}
+
+ambulo_status ambulo__worker_start(const ambulo__supervisor *batch, ambulo__slot *slot) {
+  command c = {.allocator = batch->allocator};
+  const char *program = batch->options.program;
+  ambulo_status status = make_place(batch, batch->sweep->cases[slot->index].id);
+  if (!status && !fill_command(&c, batch, slot->index, slot->from)) status = AMBULO_E_MEMORY;
+  if (!status) {
+    errno = spawn(&c, program ? program : "/proc/self/exe", &slot->process);
+    if (errno) status = ambulo__io_error(batch->diagnostics, c.log, "start a worker that writes");
   }
   free_command(&c);
+  slot->begin = ambulo__seconds_now();
   return status;
+}
+
+/* ------------------------------------------------------------------- the end */
+
+enum { MOST_ATTEMPTS = 20, MOST_LOG_BYTES = 1 << 20, NOT_STARTED = 127, SIGNAL_BASE = 128 };
+
+static int from_outside(int number) {
+  return number == SIGKILL || number == SIGTERM || number == SIGINT || number == SIGHUP ||
+         number == SIGQUIT;
+}
+
+/* first line of the worker's log in the message */
+static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id) {
+  if (batch->status) return batch->status; /* said once */
+  char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log"), *text = NULL;
+  size_t length = 0;
+  if (path && ambulo__read_file(path, MOST_LOG_BYTES, batch->allocator, NULL, &text, &length))
+    text = NULL;
+  const char *error = text ? strstr(text, "error[") : NULL;
+  if (error && strstr(error, "]: ")) error = strstr(error, "]: ") + 3;
+  if (!error) error = text && text[0] ? text : "its log says nothing";
+  ambulo__place place = {batch->directory, 0, 0, NULL};
+  ambulo_status status = ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
+                                       "what is finished is kept; run the same command again",
+                                       "case %s: %.*s", id, (int)strcspn(error, "\n"), error);
+  ambulo__free(batch->allocator, text);
+  ambulo__free(batch->allocator, path);
+  return status;
+}
+
+/* what is to become of the case */
+typedef enum judgement { RECORDED, AGAIN, DISK } judgement;
+
+/* it ended without a result: what stands there of one does not count, its log does */
+static judgement without_result(ambulo__record *record, const char *state) {
+  ambulo__case_files *files = &record->files;
+  int kept = 0;
+  for (int i = 0; i < files->count; i++)
+    if (files->file[i].ending[0] != '/') files->file[kept++] = files->file[i];
+  files->count = kept;
+  record->valid = 0;
+  record->violation = -1.0;
+  (void)snprintf(record->state, sizeof record->state, "%s", state);
+  return RECORDED;
+}
+
+/* a worker that exited; `taken`: it left a result */
+static judgement judge_exit(int code, int taken, ambulo__record *record) {
+  record->exit_code = code;
+  if (code == 4 || code == NOT_STARTED) return DISK;
+  if (code > SIGNAL_BASE && from_outside(code - SIGNAL_BASE)) return AGAIN;
+  if (code <= 1 && taken) return RECORDED;
+  if (code == 0) return AGAIN;
+  return without_result(record, code == 2 || code == 3 ? "invalid"
+                                : code == 5            ? "memory"
+                                                       : "error");
+}
+
+static judgement judge(const ambulo__slot *slot, int wait_status, int taken,
+                       ambulo__record *record) {
+  if (WIFEXITED(wait_status)) return judge_exit(WEXITSTATUS(wait_status), taken, record);
+  record->signal = WTERMSIG(wait_status);
+  if (slot->cut == 1) return without_result(record, "timeout");
+  return from_outside(record->signal) ? AGAIN : without_result(record, "crashed");
+}
+
+/* an empty log says nothing; one of a case that was solved is kept when it has warnings */
+static ambulo_status drop_empty_log(const ambulo__supervisor *batch, const char *id) {
+  struct stat entry;
+  char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log");
+  if (!path) return AMBULO_E_MEMORY;
+  if (stat(path, &entry) == 0 && entry.st_size == 0) (void)unlink(path);
+  ambulo__free(batch->allocator, path);
+  return AMBULO_OK;
+}
+
+static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__record *record) {
+  const ambulo__sweep_case *one = &batch->sweep->cases[index];
+  ambulo_status status =
+      ambulo__record_write(batch->directory, one->id, record, batch->allocator, batch->diagnostics);
+  if (status) return status;
+  ambulo_batch_progress *p = &batch->progress;
+  batch->of[index].state = AMBULO__CASE_DONE;
+  batch->of[index].solved = (unsigned char)record->valid;
+  batch->of[index].origin = record->origin;
+  batch->finished_now++;
+  p->done++;
+  p->failed += !record->valid;
+  p->last = one->name;
+  (void)snprintf(p->last_state, sizeof p->last_state, "%s", record->state);
+  if (record->violation >= 0.0 && !(record->violation <= p->worst_violation)) {
+    p->worst_violation = record->violation;
+    p->worst = one->name;
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__worker_end(ambulo__supervisor *batch, const ambulo__slot *slot,
+                                 int wait_status) {
+  const ambulo__sweep_case *one = &batch->sweep->cases[slot->index];
+  ambulo__record record;
+  memset(&record, 0, sizeof record);
+  record.key = one->key;
+  record.exit_code = -1;
+  record.violation = -1.0;
+  record.origin = slot->origin;
+  if (slot->from >= 0)
+    (void)snprintf(record.start, sizeof record.start, "%s", batch->sweep->cases[slot->from].id);
+  record.seconds = ambulo__seconds_now() - slot->begin;
+  record.limit_seconds = batch->case_seconds;
+  record.limit_megabytes = batch->case_megabytes;
+  int taken = 0;
+  batch->of[slot->index].state = AMBULO__CASE_WAITING;
+  if (!(WIFEXITED(wait_status) && WEXITSTATUS(wait_status) <= 3)) clean_case(batch, one->id);
+  ambulo_status status = drop_empty_log(batch, one->id);
+  if (!status)
+    status = ambulo__record_take_result(batch->directory, one->id, batch->allocator,
+                                        batch->diagnostics, &record, &taken);
+  if (status) return status;
+  judgement judged = judge(slot, wait_status, taken, &record);
+  if (judged == RECORDED) return keep(batch, slot->index, &record);
+  if (judged == DISK) return disk_trouble(batch, one->id);
+  if (slot->cut == 0 && ++batch->of[slot->index].attempts == MOST_ATTEMPTS) {
+    batch->of[slot->index].state = AMBULO__CASE_GIVEN_UP;
+    ambulo__place place = {batch->directory, 0, 0, NULL};
+    ambulo__warning(batch->diagnostics, place, "is the machine out of memory?",
+                    "case %s was killed from outside %d times; left out of this run", one->id,
+                    MOST_ATTEMPTS);
+  }
+  return AMBULO_OK;
 }

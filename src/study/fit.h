@@ -29,7 +29,7 @@
 #include "people/compare.h"
 #include "base/text_buffer.h"
 #include "formats/yaml_node.h"
-#include "study/sweep.h"
+#include "study/study.h"
 
 enum {
   AMBULO__FIT_PARAMETERS = 64,

@@ -4,7 +4,7 @@
 #include "ambulo/tools/report.h"
 #include "base/numtext.h"
 #include "formats/json_text.h"
-#include "study/case_path.h"
+#include "study/batch.h"
 #include "study/fit.h"
 
 #include <math.h>

@@ -15,8 +15,7 @@
 #include "formats/paths.h"
 #include "formats/read_file.h"
 #include "formats/text_hash.h"
-#include "study/batch_lock.h"
-#include "study/case_path.h"
+#include "study/batch.h"
 #include "study/fit.h"
 
 #include <dirent.h>
@@ -111,7 +110,7 @@ static ambulo_status compare_inputs(const run *r, const char *path,
 
 /* Makes DIR the folder of this fit and locks it. One that holds other things is refused, and one of
  * a fit with other inputs unless force = 1. Errors: E_IO, E_PROBLEM, E_MEMORY. */
-static ambulo_status prepare_folder(const run *r, ambulo__lock *lock) {
+static ambulo_status prepare_folder(const run *r, int *lock) {
   ambulo_status status = ambulo__expect_path(r->directory, "folder", r->diagnostics);
   if (!status) status = make_folder(r);
   if (status) return status;
@@ -318,13 +317,13 @@ ambulo_status ambulo_fit_run(const ambulo_fit *fit, const char *directory,
            .directory = directory,
            .allocator = ambulo__allocator_or_default(allocator),
            .diagnostics = diagnostics};
-  ambulo__lock lock = {-1, -1};
+  int lock = -1;
   ambulo_status status =
       ambulo__fit_runner_open(fit, directory, &o, &r.allocator, diagnostics, &r.runner);
   if (!status) status = prepare(&r);
   if (!status) status = prepare_folder(&r, &lock);
   if (!status) status = run_locked(&r, report);
-  ambulo__lock_release(&lock);
+  ambulo__lock_release(lock);
   r.runner.progress.seconds = ambulo__seconds_now() - r.runner.begin;
   if (!status) r.runner.progress.ending = r.outcome.ending;
   if (end) *end = r.runner.progress;

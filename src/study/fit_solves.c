@@ -12,9 +12,8 @@
  * be a fit of the starts. */
 #include "base/machine.h"
 #include "formats/paths.h"
-#include "study/case_path.h"
-#include "study/case_record.h"
 #include "people/compare.h"
+#include "study/batch.h"
 #include "study/fit.h"
 
 #include <math.h>

@@ -31,7 +31,8 @@
  * With the other terms in R, a solved point minimizes sum_i lambda_i (s_i J_i + R): it is Pareto
  * optimal among s_i J_i + R. Among the J_i alone one point may then dominate another.
  *
- * Reading order: front.h, front_anchors.c, front_judge.c, front_gap.c, front_ask.c, front_mesh.c.
+ * Files: front.h, front.c, front_ask.c; the cases and runs of one: front_cases.c,
+ * front_run.c.
  */
 #ifndef AMBULO_STUDY_FRONT_H
 #define AMBULO_STUDY_FRONT_H
@@ -68,6 +69,7 @@ typedef struct ambulo__front {
   int wanted;                      /* points of the front that are asked for */
   int neighbour;                   /* 1: points start from the nearer end of their gap */
   double least;                    /* share of the other terms at an anchor */
+  char *name[AMBULO__FRONT_TERMS]; /* of the terms */
   double own[AMBULO__FRONT_TERMS]; /* weights in the problem file */
   ambulo__front_point *point;      /* [points], in the order in which they were asked for */
 } ambulo__front;
@@ -95,9 +97,9 @@ typedef struct ambulo__front_report {
   double largest, mean; /* of the gaps; three terms: from each point to the nearest */
 } ambulo__front_report;
 
-/* front_anchors.c: the anchors as they are known, anchor[m]: point, or -1 where none is solved that
- * far; range[m], lowest[m]: of J_i over them. Returns 1 when all are solved and shares are right
- * (or all rounds are used up); 0, and requests[0..*count), what to solve first. */
+/* front.c: the anchors as they are known, anchor[m]: point, or -1 where none is solved that far;
+ * range[m], lowest[m]: of J_i over them. Returns 1 when all are solved and shares are right (or all
+ * rounds are used up); 0, and requests[0..*count), what to solve first. */
 int ambulo__front_anchors(const ambulo__front *front, int anchor[AMBULO__FRONT_TERMS],
                           double lowest[AMBULO__FRONT_TERMS], double range[AMBULO__FRONT_TERMS],
                           ambulo__front_request *requests, int *count);
@@ -105,18 +107,18 @@ int ambulo__front_anchors(const ambulo__front *front, int anchor[AMBULO__FRONT_T
 double ambulo__front_total(const ambulo__front *front, const double *weight, int motion);
 /* A weight to five digits, as it stands in the list of cases. */
 double ambulo__front_round(double weight);
-
-/* front_judge.c: standing, better, place and z of every point. */
+/* standing, better, place and z of every point. */
 void ambulo__front_judge(ambulo__front *front, ambulo__front_report *report);
 double ambulo__front_distance(const ambulo__front *front, int a, int b);
-
-/* front_gap.c: of a judged front of two terms, gap[on] in the order of places, of which the first
- * *count = on - 1 are filled. */
+/* Of a judged front of two terms, gap[on] in the order of places, of which the first *count = on -
+ * 1 are filled. */
 void ambulo__front_gaps(const ambulo__front *front, ambulo__front_gap *gap, int *count);
 /* Request at share u of the way from a to b. Returns 0 where these weights were solved for already.
  */
 int ambulo__front_between(const ambulo__front *front, int a, int b, double u,
                           ambulo__front_request *request);
+/* The first share that is tried and was not solved for; 0: all were. */
+int ambulo__front_try(const ambulo__front *front, int a, int b, ambulo__front_request *request);
 /* Whether every share that is tried was solved for, and a and b are neighbours still. */
 int ambulo__front_is_refused(const ambulo__front *front, int a, int b);
 
@@ -124,9 +126,5 @@ int ambulo__front_is_refused(const ambulo__front *front, int a, int b);
  * done. E_MEMORY. */
 ambulo_status ambulo__front_ask(ambulo__front *front, const ambulo_allocator *allocator,
                                 ambulo__front_request *requests, int room, int *count);
-/* front_mesh.c: of three terms: the longest edges of the triangles between points. E_MEMORY. */
-ambulo_status ambulo__front_mesh(const ambulo__front *front, const int anchor[AMBULO__FRONT_TERMS],
-                                 const ambulo_allocator *allocator, ambulo__front_request *requests,
-                                 int room, int *count);
 
 #endif

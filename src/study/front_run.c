@@ -1,23 +1,20 @@
-/* study/front_run.c - a batch whose cases follow from each other's results: a front
- * (study/front.h).
+/* study/front_run.c - a batch whose cases follow from each other's results: a front (front.h).
  *
  * A round asks for all that can be solved at once, and runs the batch with the longer list. What to
  * ask for follows from the points before it alone, so to resume is to repeat: rounds whose records
  * are intact are read, and only the first that is not is run. Neither the number of processes nor
  * an interruption changes what is asked for. */
-#include "base/sized.h"
 #include "base/machine.h"
-#include "study/batch_listing.h"
-#include "study/case_record.h"
-#include "study/batch_supervisor.h"
-#include "study/front_points.h"
+#include "base/sized.h"
+#include "study/results.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST_SOLVES = 3, MOST_PASSES = 3 };
 
 typedef struct runner {
-  ambulo_sweep *sweep; /* grows */
+  ambulo_sweep sweep; /* the caller's, with cases of its own, which grow */
   const char *directory;
   ambulo_batch_options options;
   const ambulo_allocator *allocator;
@@ -36,20 +33,20 @@ typedef struct runner {
 
 /* *known: the case needs no run */
 static ambulo_status read_point(runner *r, int k, int *known) {
-  const ambulo__sweep_case *one = &r->sweep->cases[k];
+  const ambulo__sweep_case *one = &r->sweep.cases[k];
   ambulo__finding finding;
   ambulo__record record;
   ambulo__damage damage;
-  double seconds = r->options.case_seconds > 0.0 ? r->options.case_seconds : r->sweep->case_seconds;
+  double seconds = r->options.case_seconds > 0.0 ? r->options.case_seconds : r->sweep.case_seconds;
   int megabytes =
-      r->options.case_megabytes > 0 ? r->options.case_megabytes : r->sweep->case_megabytes;
+      r->options.case_megabytes > 0 ? r->options.case_megabytes : r->sweep.case_megabytes;
   ambulo_status status = ambulo__record_find(r->directory, one->id, one->key, 1, r->allocator,
                                              &finding, &record, &damage);
   if (status) return status;
   *known = finding == AMBULO__FOUND_INTACT && !ambulo__record_was_cut(&record, seconds, megabytes);
   if (!*known || !record.valid) return AMBULO_OK;
-  return ambulo__front_read_point(r->directory, one->id, r->sweep->front.name,
-                                  r->sweep->front.terms, r->allocator, &r->front.point[k]);
+  return ambulo__front_read_point(r->directory, one->id, &r->front, r->allocator,
+                                  &r->front.point[k]);
 }
 
 /* goes on to the first case that is not known */
@@ -67,7 +64,7 @@ static ambulo_status read_points(runner *r) {
 
 static ambulo_status append(runner *r, const ambulo__front_request *request) {
   int index = 0;
-  ambulo_status status = ambulo__sweep_append_point(r->sweep, request, r->diagnostics, &index);
+  ambulo_status status = ambulo__sweep_append_point(&r->sweep, request, r->diagnostics, &index);
   if (status || index < r->front.points) return status;
   ambulo__front_point *p = &r->front.point[r->front.points++];
   memset(p, 0, sizeof *p);
@@ -114,9 +111,9 @@ static ambulo_status run_list(runner *r, int *fresh) {
   o.force = 1; /* the list grows; whether the inputs are the same was asked before */
   o.progress = show;
   o.user = r;
-  r->sweep->trusted = r->known;
+  r->sweep.trusted = r->known;
   ambulo_status status =
-      ambulo__batch_run(r->sweep, r->directory, &o, r->allocator, r->diagnostics, &end);
+      ambulo__batch_run(&r->sweep, r->directory, &o, r->allocator, r->diagnostics, &end);
   *fresh = end.done - end.resumed;
   r->computed += *fresh;
   return status;
@@ -152,28 +149,22 @@ static ambulo_status run_rounds(runner *r, ambulo__front_request *requests) {
     if (!status && ended && !r->wish) status = run_list(r, &fresh);
     if (r->wish) break;
   }
-  if (ended && !status) r->progress.cases = r->sweep->case_count;
+  if (ended && !status) r->progress.cases = r->sweep.case_count;
   return status;
 }
 
 static ambulo_status run(const ambulo_sweep *sweep, runner *r) {
-  ambulo__front_request *requests = NULL;
-  r->room = MOST_SOLVES * sweep->front.points + AMBULO__FRONT_TERMS * (AMBULO__FRONT_ROUNDS + 1);
-  r->front.terms = sweep->front.terms;
-  r->front.wanted = sweep->front.points;
-  r->front.neighbour = sweep->front.neighbour;
-  r->front.least = sweep->front.least;
-  memcpy(r->front.own, sweep->front.own, sizeof r->front.own);
+  r->room = MOST_SOLVES * sweep->front.wanted + AMBULO__FRONT_TERMS * (AMBULO__FRONT_ROUNDS + 1);
+  r->front = sweep->front;
   r->front.point = ambulo__alloc(r->allocator, (size_t)r->room, sizeof *r->front.point);
-  requests = ambulo__alloc(r->allocator, (size_t)r->room, sizeof *requests);
+  ambulo__front_request *requests = ambulo__alloc(r->allocator, (size_t)r->room, sizeof *requests);
   ambulo_status status = r->front.point && requests ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status) status = ambulo__sweep_clone_front(sweep, &r->sweep);
   if (!status)
-    status =
-        ambulo__listing_check(sweep, r->directory, r->options.force, r->allocator, r->diagnostics);
+    status = ambulo__batch_check_folder(sweep, r->directory, r->options.force, r->allocator,
+                                        r->diagnostics);
   if (!status) status = run_rounds(r, requests);
   ambulo__free(r->allocator, requests);
-  ambulo__front_free(r->allocator, &r->front);
+  ambulo__free(r->allocator, r->front.point);
   return status;
 }
 
@@ -187,7 +178,8 @@ static ambulo_status run_front(const ambulo_sweep *sweep, const char *directory,
               .options = *options,
               .allocator = &own,
               .diagnostics = diagnostics,
-              .begin = ambulo__seconds_now()};
+              .begin = ambulo__seconds_now(),
+              .sweep = ambulo__sweep_without_cases(sweep)};
   ambulo__place place = {sweep->path, 0, 0, "front"};
   r.progress.worst_violation = AMBULO_OFF;
   ambulo_status status = AMBULO_OK;
@@ -202,7 +194,7 @@ static ambulo_status run_front(const ambulo_sweep *sweep, const char *directory,
   /* names of cases live no longer than the list */
   r.progress.worst = r.progress.last = NULL;
   if (progress) *progress = r.progress;
-  ambulo_sweep_free(r.sweep);
+  ambulo__sweep_free_cases(&r.sweep);
   return ambulo__conclude(diagnostics, errors, status, directory);
 }
 
@@ -216,4 +208,60 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
   if (sweep->front.terms > 0)
     return run_front(sweep, directory, &own, allocator, diagnostics, progress);
   return ambulo__batch_run(sweep, directory, options, allocator, diagnostics, progress);
+}
+
+/* --------------------------------------------------------- what to know of it */
+
+/* mean gaps; narrower ones are as even as points can be */
+static const double wide = 1.5;
+
+static void tell_gap(const ambulo__table *t, const ambulo__front_gap *gap,
+                     ambulo_diagnostics *diagnostics) {
+  const ambulo__sweep_case *cases = t->study->cases;
+  const ambulo__front_point *point = t->front.point;
+  ambulo__place place = {t->directory, 0, 0, NULL};
+  ambulo__warning(diagnostics, place,
+                  "no sum of the terms has its least there: the front is not convex, or straight; "
+                  "or its solves fail",
+                  "no weights lead between the points '%s' and '%s' (gap of %.1f mean gaps; "
+                  "%s %.4g to %.4g)",
+                  cases[gap->a].name, cases[gap->b].name, gap->length / t->report.mean,
+                  t->front.name[0], point[gap->a].value[0], point[gap->b].value[0]);
+}
+
+static ambulo_status tell_gaps(const ambulo__table *t, ambulo_diagnostics *diagnostics,
+                               ambulo_front_census *census) {
+  const ambulo_allocator *a = &t->study->allocator;
+  int gaps = 0;
+  ambulo__front_gap *gap = ambulo__alloc(a, (size_t)t->report.on + 1, sizeof *gap);
+  if (!gap) return AMBULO_E_MEMORY;
+  ambulo__front_gaps(&t->front, gap, &gaps);
+  for (int i = 0; i < gaps; i++) {
+    if (!gap[i].refused || gap[i].length <= wide * t->report.mean) continue;
+    census->refused++;
+    tell_gap(t, &gap[i], diagnostics);
+  }
+  ambulo__free(a, gap);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__front_tell(const ambulo__table *t, ambulo_diagnostics *diagnostics,
+                                 ambulo_front_census *census) {
+  const ambulo__front *f = &t->front;
+  const ambulo__front_report *report = &t->report;
+  ambulo__place place = {t->directory, 0, 0, NULL};
+  *census = (ambulo_front_census){.terms = f->terms,
+                                  .wanted = f->wanted,
+                                  .points = report->on,
+                                  .left_out = report->beaten + report->dominated,
+                                  .largest_gap = report->largest,
+                                  .mean_gap = report->mean};
+  for (int i = 0; i < f->terms && i < f->points; i++)
+    if (!f->point[i].solved)
+      ambulo__warning(diagnostics, place, "a front needs all its ends",
+                      "no front: '%s' has no valid solution", t->study->cases[i].name);
+  if (report->complete && !report->conflict)
+    ambulo__warning(diagnostics, place, NULL,
+                    "no front: the terms are not at odds, one motion is best for all");
+  return f->terms == 2 && report->on > 1 ? tell_gaps(t, diagnostics, census) : AMBULO_OK;
 }

@@ -1,16 +1,17 @@
-/* study/outputs.c - see outputs.h. */
-#include "study/outputs.h"
+/* study/outputs.c - outputs of one case: paths into its summary, reductions of its motion
+ * (results.h). */
+#include "study/results.h"
+
 #include "base/numtext.h"
 #include "formats/read_file.h"
-#include "study/case_path.h"
 #include "formats/table_text.h"
-#include "formats/yaml_node.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_MOTION_BYTES = 1 << 30, PART = 128, MOST_NAMES = 256 };
+enum { MOST_MOTION_BYTES = 1 << 30, PART = 160 };
 
 static void set_number(ambulo__output *value, double number) {
   value->kind = AMBULO__OUTPUT_NUMBER;
@@ -135,6 +136,21 @@ typedef struct source {
   motion motion;
 } source;
 
+static source open_source(const char *directory, const char *id, const ambulo_allocator *a,
+                          ambulo_diagnostics *diagnostics) {
+  source s = {.allocator = a, .diagnostics = diagnostics};
+  s.summary = ambulo__case_path(a, directory, id, "/summary.json");
+  s.file = ambulo__case_path(a, directory, id, "/motion.csv");
+  return s;
+}
+
+static void close_source(source *s) {
+  ambulo__yaml_free(s->document);
+  ambulo__free(s->allocator, s->text);
+  ambulo__free(s->allocator, s->summary);
+  ambulo__free(s->allocator, s->file);
+}
+
 static ambulo_status load_summary(source *s) {
   if (s->document) return AMBULO_OK;
   return ambulo__yaml_load(s->summary, s->allocator, s->diagnostics, &s->document);
@@ -165,87 +181,102 @@ static ambulo_status take(source *s, const char *output, ambulo__output *value) 
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__outputs_of(const char *directory, const char *id, char *const *output,
+ambulo_status ambulo__outputs_of(const char *directory, const char *id, const char *const *output,
                                  int count, const ambulo_allocator *a,
                                  ambulo_diagnostics *diagnostics, ambulo__output *value) {
-  source s = {.allocator = a, .diagnostics = diagnostics};
-  s.summary = ambulo__case_path(a, directory, id, "/summary.json");
-  s.file = ambulo__case_path(a, directory, id, "/motion.csv");
+  source s = open_source(directory, id, a, diagnostics);
   ambulo__output *found = ambulo__alloc(a, (size_t)count, sizeof *found);
   ambulo_status status = s.summary && s.file && found ? AMBULO_OK : AMBULO_E_MEMORY;
   for (int i = 0; i < count && !status; i++) status = take(&s, output[i], &found[i]);
   if (!status && count > 0) memcpy(value, found, (size_t)count * sizeof *found);
-  ambulo__yaml_free(s.document);
-  ambulo__free(a, s.text);
-  ambulo__free(a, s.summary);
-  ambulo__free(a, s.file);
+  close_source(&s);
   ambulo__free(a, found);
   return status;
 }
 
-/* -------------------------------------------------------------- nearest names */
+/* ------------------------------------------------------------- nearest names */
 
-static const char *nearest_key(const ambulo__yaml_node *node, const char *path, char *near,
-                               size_t size) {
-  char word[PART];
-  const char *key[MOST_NAMES];
-  for (;;) {
-    const char *from = path;
-    size_t length = strcspn(path, ".[]");
-    const ambulo__yaml_node *next = node && *path ? step(node, &path) : NULL;
-    if (next) {
-      node = next;
-      continue;
-    }
-    if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING) || length >= sizeof word) return NULL;
-    memcpy(word, from, length);
-    word[length] = '\0';
-    int pairs = ambulo__yaml_pairs(node), count = pairs < MOST_NAMES ? pairs : MOST_NAMES;
-    for (int i = 0; i < count; i++) key[i] = ambulo__yaml_key(node, i);
-    const char *found = ambulo__nearest(word, key, (size_t)count);
-    (void)snprintf(near, size, "%s", found ? found : "");
-    return found ? near : NULL;
-  }
+/* the nearest of names that come one at a time: ambulo__nearest takes the nearer of two */
+typedef struct search {
+  const char *word;
+  char *near; /* [size]; "": none yet */
+  size_t size;
+} search;
+
+static void offer(search *s, const char *name) {
+  const char *both[] = {s->near[0] ? s->near : name, name};
+  const char *winner = ambulo__nearest(s->word, both, 2);
+  if (winner == name || (winner && !s->near[0])) (void)snprintf(s->near, s->size, "%s", name);
 }
 
-static const char *nearest_column(const motion *m, const char *column, char *near, size_t size) {
+/* keys beside the first part of the path that is not there */
+static void search_summary(const ambulo__yaml_node *node, const char *path, search *s) {
+  char word[PART];
+  for (const ambulo__yaml_node *next = node; next; node = next) {
+    (void)snprintf(word, sizeof word, "%.*s", (int)strcspn(path, ".[]"), path);
+    next = *path ? step(node, &path) : NULL;
+    if (!next) break;
+  }
+  s->word = word;
+  for (int i = 0; ambulo__yaml_is(node, AMBULO__YAML_MAPPING) && i < ambulo__yaml_pairs(node); i++)
+    offer(s, ambulo__yaml_key(node, i));
+}
+
+static void search_motion(const motion *m, search *s) {
   ambulo__table_cell cell;
   size_t position = 0;
-  const char *found = NULL;
-  /* one at a time against the best so far: ambulo__nearest takes the nearer of two */
   while (ambulo__table_next_cell(&m->header, AMBULO__CELLS_COMMA, &position, &cell)) {
     char name[PART];
     if (cell.length >= sizeof name) continue;
-    memcpy(name, cell.start, cell.length);
-    name[cell.length] = '\0';
-    const char *both[] = {found ? near : name, name};
-    const char *winner = ambulo__nearest(column, both, 2);
-    if (winner == name || (winner && !found)) {
-      (void)snprintf(near, size, "%s", name);
-      found = near;
-    }
+    (void)snprintf(name, sizeof name, "%.*s", (int)cell.length, cell.start);
+    offer(s, name);
   }
-  return found;
 }
 
 int ambulo__output_nearest(const char *directory, const char *id, const char *output,
                            const ambulo_allocator *a, char *near, size_t size) {
-  char *summary = ambulo__case_path(a, directory, id, "/summary.json");
-  char *file = ambulo__case_path(a, directory, id, "/motion.csv"), *text = NULL;
   char column[PART];
-  const char *found = NULL;
-  ambulo__yaml *document = NULL;
-  motion m = {NULL, 0, {NULL, 0, 0, 0}};
-  if (parse(output, column) == PATH) {
-    if (summary && !ambulo__yaml_load(summary, a, NULL, &document))
-      found = nearest_key(ambulo__yaml_root(document), output, near, size);
-  } else if (file && !ambulo__read_file(file, MOST_MOTION_BYTES, a, NULL, &text, &m.length)) {
-    m.text = text;
-    if (open_motion(&m)) found = nearest_column(&m, column, near, size);
+  source s = open_source(directory, id, a, NULL);
+  search all = {column, near, size};
+  int whole = s.summary && s.file;
+  near[0] = '\0';
+  if (parse(output, column) != PATH) {
+    if (whole && !load_motion(&s)) search_motion(&s.motion, &all);
+  } else if (whole && !load_summary(&s)) {
+    search_summary(ambulo__yaml_root(s.document), output, &all);
   }
-  ambulo__yaml_free(document);
-  ambulo__free(a, text);
-  ambulo__free(a, summary);
-  ambulo__free(a, file);
-  return found != NULL;
+  close_source(&s);
+  return near[0] != '\0';
+}
+
+/* ----------------------------------------------------------- points of a front */
+
+/* The objective of a case is sum_i w_i J_i + R, and its summary names each term with its weight, so
+ * J_i is what is written by w_i. Where free parameters are chosen by the objective per metre, it is
+ * that which is minimized: total and terms are divided by the distance. */
+enum { TOTAL, PER, DISTANCE, TERMS, OUTPUTS = TERMS + AMBULO__FRONT_TERMS };
+
+ambulo_status ambulo__front_read_point(const char *directory, const char *id,
+                                       const ambulo__front *f, const ambulo_allocator *a,
+                                       ambulo__front_point *point) {
+  char text[OUTPUTS][PART] = {"objective.total", "free.per", "free.distance"};
+  const char *path[OUTPUTS];
+  int terms = f->terms;
+  ambulo__output value[OUTPUTS];
+  memset(value, 0, sizeof value);
+  for (int i = 0; i < terms; i++)
+    (void)snprintf(text[TERMS + i], PART, "objective.terms.%.140s", f->name[i]);
+  for (int i = 0; i < TERMS + terms; i++) path[i] = text[i];
+  ambulo_status status = ambulo__outputs_of(directory, id, path, TERMS + terms, a, NULL, value);
+  if (status) return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
+  double by = strcmp(value[PER].text, "distance") == 0 ? value[DISTANCE].number : 1.0;
+  int solved = value[TOTAL].kind == AMBULO__OUTPUT_NUMBER && by > 0.0;
+  point->total = value[TOTAL].number / by;
+  for (int i = 0; i < terms; i++) {
+    solved &= value[TERMS + i].kind == AMBULO__OUTPUT_NUMBER;
+    point->value[i] = value[TERMS + i].number / by / point->weight[i];
+    solved &= isfinite(point->value[i]);
+  }
+  point->solved = solved;
+  return AMBULO_OK;
 }

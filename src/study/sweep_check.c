@@ -1,14 +1,17 @@
-/* study/sweep_check.c - what makes a case list wrong before anything is computed (sweep.h). */
-#include "ambulo/problem.h"
+/* study/sweep_check.c - what makes a case list wrong before anything is computed (study.h), and
+ * filters: "speed < 1.5", "subject.sex == female".
+ *
+ * Both sides of a filter are axis names, numbers or words. Numbers compare as numbers, anything
+ * else as text, and then only for equality. */
 #include "ambulo/tools/load.h"
 #include "base/numtext.h"
-#include "formats/text_hash.h"
-#include "study/sweep.h"
+#include "study/study.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PROBES = 200, HINT = 200 };
+enum { HINT = 200 };
 
 /* "did you mean 'speed'?", or the names there are */
 static void hint_axis(const ambulo_sweep *s, const char *word, char hint[HINT]) {
@@ -51,6 +54,74 @@ ambulo_status ambulo__sweep_check_axes(ambulo_sweep *s) {
 
 /* ------------------------------------------------------------------ filters */
 
+typedef enum comparison { LESS, LESS_EQUAL, GREATER, GREATER_EQUAL, EQUAL, DIFFERENT } comparison;
+
+/* trimmed copy of text[0..length); 0 if empty or too long */
+static int side(const char *text, size_t length, char out[AMBULO__SWEEP_TEXT]) {
+  size_t lead = strspn(text, " \t");
+  lead = lead < length ? lead : length;
+  text += lead;
+  length -= lead;
+  while (length > 0 && (text[length - 1] == ' ' || text[length - 1] == '\t')) length--;
+  if (length == 0 || length >= AMBULO__SWEEP_TEXT) return 0;
+  memcpy(out, text, length);
+  out[length] = '\0';
+  return 1;
+}
+
+/* both sides, trimmed; 0: the text is no comparison */
+static int take_apart(const char *filter, char left[AMBULO__SWEEP_TEXT],
+                      char right[AMBULO__SWEEP_TEXT], comparison *which) {
+  static const struct {
+    const char *word;
+    comparison which;
+  } words[] = {{"<=", LESS_EQUAL}, {">=", GREATER_EQUAL}, {"==", EQUAL},
+               {"!=", DIFFERENT},  {"<", LESS},           {">", GREATER}};
+  size_t at = strcspn(filter, "<>=!");
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+    size_t length = strlen(words[i].word);
+    const char *rest = filter + at + length;
+    if (strncmp(filter + at, words[i].word, length) != 0) continue;
+    *which = words[i].which;
+    return side(filter, at, left) && side(rest, strlen(rest), right);
+  }
+  return 0;
+}
+
+static int compare_numbers(double a, double b, comparison which) {
+  switch (which) {
+  case LESS:
+    return a < b;
+  case LESS_EQUAL:
+    return a <= b;
+  case GREATER:
+    return a > b;
+  case GREATER_EQUAL:
+    return a >= b;
+  case EQUAL:
+    return a == b;
+  case DIFFERENT:
+    break;
+  }
+  return a != b;
+}
+
+int ambulo__filter_holds(const char *filter, const char *(*text_of)(void *user, const char *name),
+                         void *user) {
+  char left[AMBULO__SWEEP_TEXT], right[AMBULO__SWEEP_TEXT];
+  comparison which = EQUAL;
+  if (!take_apart(filter, left, right, &which)) return -1;
+  const char *a = text_of(user, left), *b = text_of(user, right);
+  if (!a) a = left;
+  if (!b) b = right;
+  double x = 0.0, y = 0.0;
+  if (ambulo__parse_double(a, strlen(a), &x) && ambulo__parse_double(b, strlen(b), &y))
+    return compare_numbers(x, y, which);
+  if (which == EQUAL) return strcmp(a, b) == 0;
+  if (which == DIFFERENT) return strcmp(a, b) != 0;
+  return -1;
+}
+
 static int is_number(const char *text) {
   double number;
   return ambulo__parse_double(text, strlen(text), &number);
@@ -66,8 +137,9 @@ static const char *stranger(const ambulo_sweep *s, const char *left, const char 
 ambulo_status ambulo__sweep_check_filters(ambulo_sweep *s, const ambulo__yaml_node *filters) {
   for (int i = 0; i < s->filters; i++) {
     char left[AMBULO__SWEEP_TEXT], right[AMBULO__SWEEP_TEXT], hint[HINT];
+    comparison which;
     const ambulo__yaml_node *node = ambulo__yaml_item(filters, i);
-    if (!ambulo__filter_sides(s->filter[i], left, right))
+    if (!take_apart(s->filter[i], left, right, &which))
       return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                                 "filter '%s' is no comparison; expected NAME < VALUE with < <= > "
                                 ">= == !=",
@@ -117,26 +189,34 @@ ambulo_status ambulo__sweep_check_name(ambulo_sweep *s, const char *pattern, amb
   return AMBULO_OK;
 }
 
+/* by name, then in the order of the list */
+static int by_name(const void *left, const void *right) {
+  const ambulo__sweep_case *a = *(const ambulo__sweep_case *const *)left,
+                           *b = *(const ambulo__sweep_case *const *)right;
+  int order = strcmp(a->name, b->name);
+  return order ? order : (a > b) - (a < b);
+}
+
 static ambulo_status names_differ(ambulo_sweep *s) {
-  size_t slots = 2;
-  while (slots < 2 * (size_t)s->case_count) slots *= 2;
-  int *slot = ambulo__alloc(&s->allocator, slots, sizeof *slot);
-  if (!slot) return AMBULO_E_MEMORY;
-  memset(slot, 0xff, slots * sizeof *slot);
+  size_t count = (size_t)s->case_count;
+  const ambulo__sweep_case **sorted = ambulo__alloc(&s->allocator, count, sizeof *sorted);
+  if (!sorted) return AMBULO_E_MEMORY;
   ambulo_status status = AMBULO_OK;
-  for (int k = 0; k < s->case_count && !status; k++) {
-    const char *name = s->cases[k].name;
-    size_t at = (size_t)ambulo__hash_text(AMBULO__HASH_START, name) & (slots - 1);
-    while (slot[at] >= 0 && strcmp(s->cases[slot[at]].name, name) != 0) at = (at + 1) & (slots - 1);
-    if (slot[at] >= 0)
-      status =
-          ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot),
-                        "name every axis that varies in case_name, or leave it out",
-                        "two cases are named '%s' (%s and %s); expected different names", name,
-                        s->cases[slot[at]].id, s->cases[k].id);
-    slot[at] = k;
+  for (size_t k = 0; k < count; k++) sorted[k] = &s->cases[k];
+  qsort((void *)sorted, count, sizeof *sorted, by_name);
+  const ambulo__sweep_case *twin = NULL, *first = NULL;
+  for (size_t k = 1; k < count; k++) {
+    if (strcmp(sorted[k]->name, sorted[k - 1]->name) != 0 || (twin && twin < sorted[k])) continue;
+    twin = sorted[k];
+    first = sorted[k - 1];
   }
-  ambulo__free(&s->allocator, slot);
+  if (twin)
+    status =
+        ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot),
+                      "name every axis that varies in case_name, or leave it out",
+                      "two cases are named '%s' (%s and %s); expected different names", twin->name,
+                      first->id, twin->id);
+  ambulo__free(&s->allocator, (void *)sorted);
   return status;
 }
 
@@ -161,6 +241,14 @@ static void tell_causes(ambulo_sweep *s, const ambulo_diagnostics *list, size_t 
   }
 }
 
+/* where the value of a case stands; the axis, where it is no value of a sweep file */
+static ambulo__spot spot_of_value(const ambulo_sweep *s, int index, int i) {
+  const ambulo__axis *axis = &s->axis[i];
+  for (int k = 0; k < axis->count; k++)
+    if (ambulo__axis_text(axis, k) == ambulo_sweep_value(s, index, i)) return axis->value[k].spot;
+  return axis->spot;
+}
+
 /* a message of the problem's reader, told at the key (it has no position in the value) or at the
  * value that it is about */
 static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
@@ -173,18 +261,16 @@ static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
     i = message->severity == AMBULO_ERROR ? axis_of_message(s, message) : -1;
     causes = k;
   }
-  int value = i < 0 ? -1 : s->value[(size_t)index * (size_t)s->stride + (size_t)i];
-  if (value < 0) {
+  if (i < 0) {
     message = ambulo_diagnostics_get(list, 0);
     return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, (ambulo__spot){0, 0, 0}),
                          message ? message->hint : NULL, "case '%s': %s", s->cases[index].name,
                          message ? message->message : ambulo_status_text(status));
   }
   tell_causes(s, list, causes);
-  const ambulo__axis *axis = &s->axis[i];
-  ambulo__spot spot = message->line > 0 ? axis->value[value].spot : axis->spot;
+  ambulo__spot spot = message->line > 0 ? spot_of_value(s, index, i) : s->axis[i].spot;
   return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, spot), message->hint, "%s: %s",
-                       axis->key, message->message);
+                       s->axis[i].key, message->message);
 }
 
 /* Only what a value is in itself ends the sweep; whether the values of a case agree with each
@@ -206,28 +292,8 @@ static ambulo_status probe(ambulo_sweep *s, int index) {
   return status;
 }
 
-ambulo_status ambulo__sweep_check_cases(ambulo_sweep *s) {
+ambulo_status ambulo__sweep_check_cases(ambulo_sweep *s, const int *probed, int probes) {
   ambulo_status status = AMBULO_OK;
-  size_t first[AMBULO__SWEEP_AXES] = {0}, values = 0;
-  for (int i = 0; i < s->axes; i++) {
-    first[i] = values;
-    values += (size_t)s->axis[i].count;
-  }
-  unsigned char *seen = ambulo__alloc(&s->allocator, values, 1);
-  if (!seen) status = AMBULO_E_MEMORY;
-  int probes = 0;
-  for (int k = 0; k < s->case_count && !status && probes < MOST_PROBES; k++) {
-    const int *value = s->value + (size_t)k * (size_t)s->stride;
-    int fresh = 0;
-    for (int i = 0; i < s->axes; i++) {
-      if (value[i] < 0 || seen[first[i] + (size_t)value[i]]) continue;
-      seen[first[i] + (size_t)value[i]] = 1;
-      fresh = 1;
-    }
-    if (!fresh) continue;
-    probes++;
-    status = probe(s, k);
-  }
-  ambulo__free(&s->allocator, seen);
+  for (int i = 0; i < probes && !status; i++) status = probe(s, probed[i]);
   return status ? status : names_differ(s);
 }

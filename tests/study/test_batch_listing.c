@@ -1,11 +1,12 @@
 /* A batch folder's own description: read back, and refused when it is damaged. */
 #include "formats/seal.h"
 #include "formats/sha256.h"
-#include "study/batch_listing.h"
+#include "study/study.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/sealed_lines.h"
+#include "support/sweep_files.h"
 #include "support/yaml_mutation.h"
 
 static const char list[] = "id\tkey\tname\tmass\n"
@@ -34,36 +35,70 @@ static void write_description(void **state, const char *schema, const char *dige
 static void write_folder(void **state, const char *cases) {
   char digest[AMBULO__SHA256_TEXT];
   ambulo__sha256_of(cases, strlen(cases), digest);
-  write_description(state, AMBULO__LISTING_SCHEMA, digest);
+  write_description(state, "ambulo-batch/2", digest);
   scratch_write(scratch_path(state, "cases.tsv"), cases);
 }
 
 static void refuse(void **state, ambulo_status want, const char *message, int want_damaged) {
-  ambulo__listing l;
+  ambulo_sweep *s;
   int damaged = -1;
   ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
-  assert_int_equal(ambulo__listing_try(*state, NULL, messages, &l, &damaged), want);
+  assert_int_equal(ambulo__study_try(*state, NULL, messages, &s, &damaged), want);
   assert_message(messages, 0, message);
   assert_int_equal(damaged, want_damaged);
   ambulo_diagnostics_free(messages);
 }
 
 static void it_is_read_back(void **state) {
-  ambulo__listing l;
+  ambulo_sweep *s;
   write_folder(state, list);
-  assert_int_equal(ambulo__listing_load(*state, NULL, NULL, &l), AMBULO_OK);
-  assert_int_equal(l.cases, 2);
-  assert_int_equal(l.columns, AMBULO__LISTING_AXES + 1);
-  assert_string_equal(ambulo__listing_title(&l, AMBULO__LISTING_AXES), "mass");
-  assert_string_equal(ambulo__listing_cell(&l, 1, AMBULO__LISTING_NAME), "heavy");
-  assert_true(ambulo__listing_key(&l, 1) == 16);
-  assert_string_equal(l.output[1], "max(tau.pin)");
-  assert_string_equal(l.output_unit[1], "N m");
-  assert_string_equal(l.output_label[0], "effort");
-  assert_string_equal(l.axis_unit[0], "kg");
-  assert_string_equal(l.axis_label[0], "body mass");
-  assert_int_equal(l.zipped, 1);
-  ambulo__listing_free(&l);
+  assert_int_equal(ambulo__study_load(*state, NULL, NULL, &s), AMBULO_OK);
+  assert_int_equal(s->case_count, 2);
+  assert_int_equal(s->axes, 1);
+  assert_string_equal(s->axis[0].name, "mass");
+  assert_string_equal(s->axis[0].key, "subject.mass");
+  assert_string_equal(s->cases[1].name, "heavy");
+  assert_string_equal(ambulo_sweep_value(s, 1, 0), "90");
+  assert_true(s->cases[1].key == 16);
+  assert_string_equal(s->output[1].path, "max(tau.pin)");
+  assert_string_equal(s->output[1].unit, "N m");
+  assert_string_equal(s->output[0].label, "effort");
+  assert_string_equal(s->axis[0].unit, "kg");
+  assert_string_equal(s->axis[0].label, "body mass");
+  assert_int_equal(s->zipped, 1);
+  ambulo_sweep_free(s);
+}
+
+/* what a sweep file says is what its folder says */
+static void a_sweep_is_written_and_read_back(void **state) {
+  ambulo_allocator plain = ambulo__allocator_or_default(NULL);
+  ambulo_sweep *s = NULL, *back = NULL;
+  assert_int_equal(
+      sweep_load(state,
+                 "axes:\n  - {key: time.intervals, name: n, values: [8, 10]}\n"
+                 "  - {key: time.duration, name: \"a\\tb\", label: long, unit: s, values: [1, 2]}\n"
+                 "combine: zip\noutputs: [objective, {output: duration, label: d, unit: s}]\n"
+                 "cases:\n  - {name: own, set: {time.intervals: 9}}\n",
+                 NULL, &s),
+      AMBULO_OK);
+  assert_int_equal(ambulo__study_describe(s, *state, &plain, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__study_load(*state, NULL, NULL, &back), AMBULO_OK);
+  assert_true(back->case_count == 3 && back->axes == 2 && back->outputs == 2 && back->zipped == 2);
+  assert_string_equal(back->axis[1].name, "a b");
+  assert_string_equal(back->axis[1].label, "long");
+  assert_string_equal(back->axis[0].label, "n");
+  assert_string_equal(back->output[1].unit, "s");
+  assert_string_equal(back->problem_hash, s->problem_hash);
+  assert_string_equal(back->version, s->version);
+  for (int k = 0; k < 3; k++) {
+    assert_string_equal(back->cases[k].id, s->cases[k].id);
+    assert_string_equal(back->cases[k].name, s->cases[k].name);
+    assert_true(back->cases[k].key == s->cases[k].key);
+    for (int i = 0; i < 2; i++)
+      assert_string_equal(ambulo_sweep_value(back, k, i), ambulo_sweep_value(s, k, i));
+  }
+  ambulo_sweep_free(back);
+  ambulo_sweep_free(s);
 }
 
 /* every byte of both files changed, every length cut: cases.tsv also where a line ends */
@@ -99,9 +134,9 @@ static void nonsense_is_told_with_its_line(void **state) {
       {"", "cases.tsv"},
       {"id\tkey\n", "cases.tsv:1:1"},
       {"id\tkey\tname\tmass\na\t0f\tlight\n", "cases.tsv:2:1"},
-      {"id\tkey\tname\tmass\na\t0f", "cases.tsv:1:1"},
+      {"id\tkey\tname\tmass\na\t0f", "cases.tsv:2:1"},
       {"id\tkey\tname\na\t0f\tlight\n", "cases.tsv:1:1"},
-      {"id\tkey\tname\tmass\na\t000000000000000f\tx\t1\n", "cases.tsv:1:1"},
+      {"id\tkey\tname\tmass\na\t000000000000000f\tx\t1\n", "cases.tsv:3:1"},
       {"id\tkey\tname\tmass\na\t000000000000000f\tx\t1\nb\tzz\ty\t2\n", "cases.tsv:3:1"}};
   for (size_t i = 0; i < sizeof damaged / sizeof *damaged; i++) {
     write_folder(state, damaged[i][0]);
@@ -111,7 +146,7 @@ static void nonsense_is_told_with_its_line(void **state) {
 
 static void folders_of_other_versions_are_named(void **state) {
   write_description(state, "ambulo-batch/1", "");
-  refuse(state, AMBULO_E_PROBLEM, "filled by an earlier version of ambulo (ambulo-batch/1", 0);
+  refuse(state, AMBULO_E_PROBLEM, "filled by another version of ambulo (ambulo-batch/1", 0);
   write_description(state, "ambulo-batch/3", "");
   refuse(state, AMBULO_E_PROBLEM, "filled by another version of ambulo (ambulo-batch/3)", 0);
 }
@@ -124,19 +159,19 @@ static void fields_of_another_type_are_damage(void **state) {
   char *text = read_whole(path);
   for (int line = 0; line < 30; line++) {
     for (int i = 2; i < MUTATION_VALUES; i++) {
-      ambulo__listing l;
+      ambulo_sweep *s;
       int damaged = 0;
       ambulo__text_buffer changed = sealed_with(text, line, mutation_values[i]);
       if (!changed.data) break;
       scratch_write(path, changed.data);
       ambulo__text_free(&changed);
       tried++;
-      ambulo_status status = ambulo__listing_try(*state, NULL, NULL, &l, &damaged);
+      ambulo_status status = ambulo__study_try(*state, NULL, NULL, &s, &damaged);
       /* legal where a text is; where a list of one text is */
       int is_word = i == 2 || i == 4, is_list = i == 6;
       assert_true(is_word || is_list || status != AMBULO_OK);
       assert_true(status == AMBULO_OK || damaged || status == AMBULO_E_PROBLEM);
-      if (!status) ambulo__listing_free(&l);
+      if (!status) ambulo_sweep_free(s);
     }
   }
   free(text);
@@ -149,10 +184,10 @@ static void without_memory_nothing_is_damaged(void **state) {
   for (long k = 0;; k++) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator hook = fail_alloc_hook(&memory);
-    ambulo__listing l;
+    ambulo_sweep *s;
     int damaged = -1;
-    ambulo_status status = ambulo__listing_try(*state, &hook, NULL, &l, &damaged);
-    if (!status) ambulo__listing_free(&l);
+    ambulo_status status = ambulo__study_try(*state, &hook, NULL, &s, &damaged);
+    if (!status) ambulo_sweep_free(s);
     assert_int_equal(memory.live, 0);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     assert_int_equal(damaged, 0);
@@ -161,13 +196,14 @@ static void without_memory_nothing_is_damaged(void **state) {
 }
 
 static void no_folder_no_listing(void **state) {
-  ambulo__listing l;
-  assert_int_equal(ambulo__listing_load(*state, NULL, NULL, &l), AMBULO_E_IO);
+  ambulo_sweep *s;
+  assert_int_equal(ambulo__study_load(*state, NULL, NULL, &s), AMBULO_E_IO);
 }
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {TEST(it_is_read_back),
+                                     TEST(a_sweep_is_written_and_read_back),
                                      TEST(damage_is_told),
                                      TEST(fields_of_another_type_are_damage),
                                      TEST(nonsense_is_told_with_its_line),

@@ -1,6 +1,6 @@
 /* Records: written and read back, refused when damaged, of what a result folder holds; what lifts a
  * limit. */
-#include "study/case_record.h"
+#include "study/batch.h"
 #include "support/fail_alloc.h"
 #include "support/scratch.h"
 #include "support/sealed_lines.h"
@@ -246,6 +246,21 @@ static void wider_limits_reopen_a_case(void **state) {
   assert_false(ambulo__record_was_cut(&r, 0.0, 0));
 }
 
+static void equal_and_free(char *path, const char *expected) {
+  const ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  assert_non_null(path);
+  assert_string_equal(path, expected);
+  ambulo__free(&a, path);
+}
+
+static void cases_spread_over_folders(void **state) {
+  (void)state;
+  const ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  equal_and_free(ambulo__case_path(&a, "d", "000000001-0000abcd", ".json"),
+                 "d/cases/cd/000000001-0000abcd.json");
+  equal_and_free(ambulo__case_path(&a, ".", "x", "/gait.svg"), "./cases/00/x/gait.svg");
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_folder, scratch_close)
   const struct CMUnitTest tests[] = {
@@ -258,6 +273,7 @@ int main(void) {
       TEST(fields_of_another_type_are_damage),
       TEST(without_memory_nothing_is_called_damaged),
       cmocka_unit_test(wider_limits_reopen_a_case),
+      cmocka_unit_test(cases_spread_over_folders),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
  *
  * so y is a sum of e^(+-c t) cos c t, e^(+-c t) sin c t with c = (b / 4a)^(1/4). */
 #include "base/diagnostics.h"
-#include "study/front_points.h"
+#include "study/results.h"
 #include "support/fit_files.h"
 #include "support/messages.h"
 
@@ -131,12 +131,10 @@ static void the_front_is_the_known_one(void **state) {
   assert_true(census.front.terms == 2 && census.front.wanted == 9 && census.front.points >= 9);
   assert_int_equal(census.front.left_out + census.front.refused, 0);
   assert_true(census.front.largest_gap < 1.5 * census.front.mean_gap);
-  ambulo__listing l;
-  ambulo__front front;
-  ambulo__front_report report;
-  assert_int_equal(ambulo__listing_load(folder, NULL, NULL, &l), AMBULO_OK);
-  assert_int_equal(ambulo__front_gather(folder, &l, &front, &report), AMBULO_OK);
-  assert_int_equal(report.on, census.front.points);
+  ambulo__table table;
+  assert_int_equal(ambulo__table_open(folder, AMBULO__CELLS, NULL, NULL, &table), AMBULO_OK);
+  assert_int_equal(table.report.on, census.front.points);
+  const ambulo__front front = table.front;
   double size[2] = {0.0, 0.0};
   for (int k = 0; k < front.points; k++)
     for (int i = 0; i < 2; i++) size[i] = fmax(size[i], front.point[k].value[i]);
@@ -147,8 +145,7 @@ static void the_front_is_the_known_one(void **state) {
     for (int i = 0; i < 2; i++) assert_close(p->value[i] / size[i], value[i] / size[i], 0.01);
     assert_close(p->total, p->weight[0] * p->value[0] + p->weight[1] * p->value[1], 1e-9);
   }
-  ambulo__front_free(&l.allocator, &front);
-  ambulo__listing_free(&l);
+  ambulo__table_close(&table);
   ambulo_sweep_free(sweep);
 }
 

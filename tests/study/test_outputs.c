@@ -1,5 +1,5 @@
 /* Outputs: paths into a summary, reductions of a motion's columns. */
-#include "study/outputs.h"
+#include "study/results.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"
@@ -21,10 +21,10 @@ static void make_result(void **state) {
 
 static void values_are_found(void **state) {
   const ambulo_allocator plain = ambulo__allocator_or_default(NULL);
-  char *output[] = {"verdict",     "objective",    "objective.terms.a", "body.up[1]",
-                    "max(q.pin)",  "min(q.pin)",   "mean(q.pin)",       "range(q.pin)",
-                    "none",        "max(q.other)", "body.up[7]",        "verdict.deeper",
-                    "range(zmp.x)"};
+  const char *output[] = {"verdict",     "objective",    "objective.terms.a", "body.up[1]",
+                          "max(q.pin)",  "min(q.pin)",   "mean(q.pin)",       "range(q.pin)",
+                          "none",        "max(q.other)", "body.up[7]",        "verdict.deeper",
+                          "range(zmp.x)"};
   enum { COUNT = sizeof output / sizeof *output };
   static const char *const expected[COUNT] = {"optimal", "2.5", "1", "1", "4", "2", "2.5",
                                               "2",       "",    "",  "",  "",  "4"};
@@ -68,10 +68,10 @@ static void what_cannot_be_read_is_told(void **state) {
       {"summary.json", "{\"verdict\": \"opt", "verdict", AMBULO_E_PARSE, "summary.json:"},
       {"motion.csv", "# units\n", "max(q.pin)", AMBULO_E_PARSE, "motion.csv: error[E_PARSE]"}};
   for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
-    char path[128], *output[] = {(char *)(uintptr_t) "objective.terms.a", NULL};
+    char path[128];
+    const char *output[] = {"objective.terms.a", faults[i].output};
     ambulo__output value[2] = {{.number = 17.0}, {.number = 17.0}};
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-    output[1] = (char *)(uintptr_t)faults[i].output;
     if (i == 0) make_result(state);
     snprintf(path, sizeof path, "cases/cd/000000001-0000abcd/%s", faults[i].file);
     char *kept = read_whole(scratch_path(state, path));
@@ -92,7 +92,7 @@ static void what_cannot_be_read_is_told(void **state) {
 
 /* the k-th request for memory fails: E_MEMORY, never a value that is missing */
 static void without_memory_no_value_is_missing(void **state) {
-  char *output[] = {(char *)(uintptr_t) "objective", (char *)(uintptr_t) "max(q.pin)"};
+  const char *output[] = {(char *)(uintptr_t) "objective", (char *)(uintptr_t) "max(q.pin)"};
   make_result(state);
   for (long k = 0;; k++) {
     fail_alloc memory = fail_alloc_at(k);

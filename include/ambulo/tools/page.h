@@ -28,7 +28,7 @@ typedef struct ambulo_page_options {
   double from, to;
 
   /* How large the page of a batch may be, MB; 3. Motions that need more have fewer samples; cases
-   * for which there still is no room lead to their pictures. */
+   * for which there still is no room have none. */
   double megabytes;
 } ambulo_page_options;
 AMBULO_TOOL_DEFAULT(ambulo_page_options);

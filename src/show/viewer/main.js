@@ -21,7 +21,6 @@ const opened = (packed) => Object.assign(packed, JSON.parse(inflated(packed.pack
 if (data.study) {
   Object.assign(data.study, JSON.parse(inflated(data.study.table)));
   data.study.shown.forEach((index, motion) => { data.study.cases[index].motion = motion; });
-  for (const [index, picture] of data.study.pictures) data.study.cases[index].picture = picture;
 }
 const cases = data.study && new Cases(data.study.motions);
 
@@ -291,8 +290,7 @@ function watch(index) {
   const row = data.study.cases[index];
   if (row.motion === undefined) {
     byId("failure").replaceChildren(el("section", { class: "failure" }, el("h2", {}, row.name),
-      el("p", {}, row.picture ? "Its motion is not in this page: " : "It has no motion.",
-        row.picture ? el("a", { href: row.picture }, "its picture") : "")));
+      el("p", {}, "Its motion is not in this page.")));
     return;
   }
   const playing = page.playing;

@@ -1,0 +1,201 @@
+/* study/front_cases.c - the key `front` of a sweep file: which terms, how many points; and the
+ * cases of a front, which grow while it is computed.
+ *
+ *     front: {terms: [torque_power, force_rate], points: 12, least: 0.01}
+ *
+ * The weight of each term is an axis, named weight(TERM), whose key is that of the term's weight in
+ * the base problem. The file's own weights say how terms compare before anything is known of the
+ * front. Point k of the front is case k of the list: a point is named by its place in the list, an
+ * anchor by the term that it has least of. */
+#include "base/diagnostics.h"
+#include "base/numtext.h"
+#include "study/study.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_TERMS = 64, HINT = 200, DEFAULT_POINTS = 12 };
+static const double default_least = 0.01;
+
+/* --------------------------------------------------------------------- reading */
+
+/* keys that make a list of cases: a front makes its own */
+static ambulo_status refuse_others(const ambulo__yaml_node *root) {
+  static const char *const others[] = {"axes",   "combine", "table", "latin_hypercube",
+                                       "random", "filters", "cases", "case_name",
+                                       "along"};
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_get(root, others[i]);
+    if (node)
+      return ambulo__yaml_error(node, AMBULO_E_SCHEMA,
+                                "a front of another problem is a sweep of its own",
+                                "'%s' beside 'front', which makes its cases itself; expected one "
+                                "of them",
+                                others[i]);
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status read_terms(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  if (!node) return AMBULO_OK;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE))
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                              "'terms' is no list; expected two or three terms of the objective");
+  int items = ambulo__yaml_items(node);
+  if (items < 2 || items > AMBULO__FRONT_TERMS)
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                              "a front of %d term%s; expected two or three", items,
+                              items == 1 ? "" : "s");
+  for (int i = 0; i < items; i++) {
+    ambulo_status status = ambulo__sweep_copy(s, ambulo__yaml_item(node, i), &s->front.name[i]);
+    if (status) return status;
+  }
+  s->front.terms = items;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__sweep_read_front(ambulo_sweep *s, const ambulo__yaml_node *root) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(root, "front");
+  if (!node) return AMBULO_OK;
+  ambulo_status status = refuse_others(root);
+  const ambulo__yaml_node *terms = ambulo__yaml_require(node, "terms");
+  if (!status) status = read_terms(s, terms);
+  int fewest = s->front.terms > 0 ? s->front.terms + 1 : 3;
+  s->front.wanted = ambulo__yaml_integer(ambulo__yaml_get(node, "points"), fewest,
+                                         AMBULO__FRONT_POINTS, DEFAULT_POINTS);
+  s->front.least =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "least"), 1e-6, 0.2, default_least);
+  return ambulo__sweep_close(node, status);
+}
+
+/* --------------------------------------------------------- the base's terms */
+
+/* The terms of the base problem's file. */
+typedef struct base_terms {
+  const char *name[MOST_TERMS];
+  double weight[MOST_TERMS];
+  int count;
+} base_terms;
+
+static void list_terms(const ambulo__yaml *document, base_terms *terms) {
+  const ambulo__yaml_node *list = ambulo__yaml_get(ambulo__yaml_root(document), "objective");
+  int items = ambulo__yaml_items(list);
+  terms->count = items < MOST_TERMS ? items : MOST_TERMS;
+  for (int i = 0; i < terms->count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i),
+                            *name = ambulo__yaml_get(item, "name");
+    terms->name[i] = ambulo__yaml_text(name ? name : ambulo__yaml_get(item, "term"));
+    terms->weight[i] = ambulo__yaml_number(ambulo__yaml_get(item, "weight"), 1.0);
+  }
+}
+
+/* "did you mean 'force_rate'?", or the terms that are not in the list yet */
+static void hint_terms(const ambulo_sweep *s, const base_terms *terms, const char *word,
+                       char hint[HINT]) {
+  const char *near = ambulo__nearest(word, terms->name, (size_t)terms->count);
+  size_t used = 0;
+  hint[0] = '\0';
+  if (near && strcmp(near, word) != 0) {
+    (void)snprintf(hint, HINT, "did you mean '%s'?", near);
+    return;
+  }
+  for (int i = 0; i < terms->count && used < HINT; i++) {
+    int taken = 0;
+    for (int k = 0; k < s->front.terms; k++) taken |= strcmp(terms->name[i], s->front.name[k]) == 0;
+    if (taken) continue;
+    int length =
+        snprintf(hint + used, HINT - used, "%s%s", used ? ", " : "other terms: ", terms->name[i]);
+    used += length > 0 ? (size_t)length : 0;
+  }
+}
+
+static ambulo_status take_term(ambulo_sweep *s, const base_terms *terms,
+                               const ambulo__yaml_node *node, int index) {
+  char hint[HINT], key[48], name[AMBULO__SWEEP_TEXT];
+  const char *word = s->front.name[index];
+  int found = -1;
+  for (int i = 0; i < terms->count && found < 0; i++)
+    if (strcmp(terms->name[i], word) == 0) found = i;
+  hint_terms(s, terms, word, hint);
+  if (found < 0)
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint[0] ? hint : NULL,
+                              "unknown term (got '%s'); expected a term of the base problem's "
+                              "objective",
+                              word);
+  for (int i = 0; i < index; i++)
+    if (strcmp(s->front.name[i], word) == 0)
+      return ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint[0] ? hint : NULL,
+                                "the term '%s' twice; expected different terms", word);
+  if (!(terms->weight[found] > 0.0))
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA,
+                              "weights of the base problem say how its terms compare",
+                              "the term '%s' has no weight in the base problem; expected a "
+                              "positive one",
+                              word);
+  s->front.own[index] = terms->weight[found];
+  ambulo__axis *axis = NULL;
+  (void)snprintf(key, sizeof key, "objective[%d].weight", found);
+  (void)snprintf(name, sizeof name, "weight(%.200s)", word);
+  return ambulo__sweep_add_axis(s, name, key, ambulo__spot_of(node), &axis);
+}
+
+/* --------------------------------------------------------------------- cases */
+
+/* whether a case is an anchor of this term */
+static int is_anchor(const char *name, const char *term) {
+  static const char lead[] = "least ";
+  size_t length = strlen(term);
+  if (strncmp(name, lead, sizeof lead - 1) != 0) return 0;
+  name += sizeof lead - 1;
+  return strncmp(name, term, length) == 0 && (!name[length] || name[length] == ',');
+}
+
+static void name_point(const ambulo_sweep *s, const ambulo__front_request *request,
+                       char name[AMBULO__SWEEP_TEXT]) {
+  int again = 0;
+  for (int k = 0; k < s->case_count && request->anchor >= 0; k++)
+    again += is_anchor(s->cases[k].name, s->front.name[request->anchor]);
+  if (request->anchor >= 0 && again > 0) {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "least %.200s, %d", s->front.name[request->anchor],
+                   again + 1);
+  } else if (request->anchor >= 0) {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "least %.200s", s->front.name[request->anchor]);
+  } else if (request->from >= 0 && !s->front.neighbour) {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "%d from %d", s->case_count + 1, request->from + 1);
+  } else {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "%d", s->case_count + 1);
+  }
+}
+
+ambulo_status ambulo__sweep_append_point(ambulo_sweep *s, const ambulo__front_request *request,
+                                         ambulo_diagnostics *diagnostics, int *index) {
+  char text[AMBULO__FRONT_TERMS][AMBULO__NUMTEXT_SIZE + 64], name[AMBULO__SWEEP_TEXT];
+  const char *overrides[AMBULO__FRONT_TERMS];
+  for (int i = 0; i < s->axes; i++) {
+    char number[AMBULO__NUMTEXT_SIZE];
+    (void)ambulo__print_double(number, request->weight[i]);
+    (void)snprintf(text[i], sizeof text[i], "%.48s=%s", s->axis[i].key, number);
+    overrides[i] = text[i];
+  }
+  name_point(s, request, name);
+  return ambulo__sweep_append(s, name, overrides, s->axes, request->from, diagnostics, index);
+}
+
+ambulo_status ambulo__sweep_build_front(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  const ambulo__yaml_node *list = ambulo__yaml_get(node, "terms");
+  ambulo__yaml *document = NULL;
+  base_terms terms;
+  memset(&terms, 0, sizeof terms);
+  ambulo_status status = ambulo__yaml_load(s->base, &s->allocator, s->diagnostics, &document);
+  if (!status) list_terms(document, &terms);
+  for (int i = 0; i < s->front.terms && !status; i++)
+    status = take_term(s, &terms, ambulo__yaml_item(list, i), i);
+  ambulo__yaml_free(document);
+  int anchor[AMBULO__FRONT_TERMS], count = 0, probe[AMBULO__FRONT_TERMS] = {0};
+  double lowest[AMBULO__FRONT_TERMS], range[AMBULO__FRONT_TERMS];
+  ambulo__front_request request[AMBULO__FRONT_TERMS];
+  if (!status) (void)ambulo__front_anchors(&s->front, anchor, lowest, range, request, &count);
+  for (int i = 0; i < count && !status; i++)
+    status = ambulo__sweep_append_point(s, &request[i], s->diagnostics, &probe[i]);
+  return status ? status : ambulo__sweep_check_cases(s, probe, count);
+}
