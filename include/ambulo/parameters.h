@@ -51,8 +51,8 @@ typedef struct ambulo_parameters {
       *start; /* [variable_count] where the first inner solve starts; NULL: as ambulo_solve */
   /* The problem at values [count], with unknowns as many as before; called from the thread of the
    * run. Its model must live as long as the problem; a failure other than E_MEMORY means that there
-   * is no such problem, and the values are given up. NULL: the file of the problem says it
-   * (ambulo_problem_at). */
+   * is no such problem, and the values are rejected. NULL: the problem with those numbers moved, as
+   * its file would say it. */
   ambulo_status (*problem_at)(void *user, const double *values, const ambulo_allocator *allocator,
                               ambulo_diagnostics *diagnostics, ambulo_problem **problem);
   void *user;
@@ -76,6 +76,15 @@ static inline ambulo_parameters ambulo_problem_parameters(const ambulo_problem *
   return usual;
 }
 #endif
+/* The problem with its free parameters at values [count], SI and rad; it owns its model, and
+ * nothing of it is free. E_ARGUMENT: nothing is free in this one. Other errors: as
+ * ambulo_problem_create. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem *problem,
+                                                            const double *values,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics,
+                                                            ambulo_problem **at);
+
 /* Finds the best values. `parameters` NULL: those of the file. `options`, `allocator`,
  * `diagnostics` as for ambulo_solve; limits of evaluations and iterations are those of each inner
  * solve, options.time_limit and options.progress those of the whole run. The callback ends the run

@@ -122,8 +122,28 @@ static void gaps_as_the_body_stands(void **state) {
   assert_true(gap < 0.0);
 }
 
+/* named, the pairs that were found are those that are kept, in the same order */
+static void found_pairs_may_be_named(void **state) {
+  (void)state;
+  ambulo_problem_definition d = definition_of(AMBULO_COLLISION_AUTOMATIC);
+  ambulo__pairs found, named;
+  d.ends = AMBULO_ENDS_MIRRORED;
+  d.collision.margin = 0.02;
+  assert_int_equal(ambulo__pairs_create(&d, &own, &found), AMBULO_OK);
+  d.collision.mode = AMBULO_COLLISION_PAIRS;
+  d.collision.pairs = found.kept;
+  d.collision.pair_count = found.kept_count;
+  assert_int_equal(ambulo__pairs_create(&d, &own, &named), AMBULO_OK);
+  assert_true(found.kept_count > 4);
+  assert_int_equal(found.kept_count, named.kept_count);
+  assert_memory_equal(found.kept, named.kept, (size_t)found.kept_count * sizeof *found.kept);
+  ambulo__pairs_free(&own, &found);
+  ambulo__pairs_free(&own, &named);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(automatic_is_what_can_meet),
+                                     cmocka_unit_test(found_pairs_may_be_named),
                                      cmocka_unit_test(ranges_count_where_they_are_rows),
                                      cmocka_unit_test(named_pairs_are_those_and_their_images),
                                      cmocka_unit_test(gaps_as_the_body_stands)};

@@ -76,8 +76,8 @@ static void the_hash_sees_what_is_free(void **state) {
   }
 }
 
-/* the text as it was, the overrides as they were, and the values */
-static void the_file_is_read_again(void **state) {
+/* the problem as it was read, of which text and overrides may be gone, and the values */
+static void the_problem_elsewhere(void **state) {
   (void)state;
   char text[] = WALK "free: {gait.step_time: [0.4, 0.8], ground.slope: [-5, 5]}\n";
   char override[] = "subject.mass=60";
@@ -154,8 +154,9 @@ static void faults_are_placed(void **state) {
                  "p.yaml:10:23: error[E_SCHEMA]: 'gait.step_tim' cannot be free");
   expect_refusal(WALK "free: {gait.step_tim: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
                  "did you mean 'gait.step_time'?");
-  expect_refusal(WALK "free: {gait.phases.toe_off: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
-                 "those are gait.step_time, gait.speed, subject.mass, ground.slope");
+  expect_refusal(
+      WALK "free: {gait.phases.toe_off: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
+      "those are gait.step_time, gait.speed, subject.mass, subject.stature, ground.slope");
   expect_refusal(WALK "free: {time.intervals: [4, 8]}\n", AMBULO_E_SCHEMA, "cannot be free");
   /* a limit that is no row */
   expect_refusal(WALK "free: {\"model.links[shank_r].coordinate.range[1]\": [90, 170]}\n",
@@ -212,7 +213,7 @@ static void every_allocation_may_fail(void **state) {
     last = k;
     if (!memory.failed) break;
   }
-  assert_true(last > 300);
+  assert_true(last > 150);
 }
 
 int main(void) {
@@ -220,7 +221,7 @@ int main(void) {
       cmocka_unit_test(bounds_are_read_in_units_of_the_file),
       cmocka_unit_test(bounds_are_those_of_the_body_that_is_written_for),
       cmocka_unit_test(the_hash_sees_what_is_free),
-      cmocka_unit_test(the_file_is_read_again),
+      cmocka_unit_test(the_problem_elsewhere),
       cmocka_unit_test(others_go_along),
       cmocka_unit_test(kinks_cannot_be_free),
       cmocka_unit_test(faults_are_placed),

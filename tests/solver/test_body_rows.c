@@ -1,6 +1,5 @@
 /* Margins, places of obstacles, places and tolerances of reaches: by hand against central
  * differences. */
-#include "solver/partials.h"
 #include "support/sensitivity_check.h"
 
 #define STANDING                                                                                   \

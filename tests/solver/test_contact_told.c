@@ -20,8 +20,9 @@ static void a_walk(void **state) {
 
 static void a_walk_under_load_uphill(void **state) {
   (void)state;
-  static const setting c = {"models/walk_loaded.yaml",
-                            {SHARED, "ground={slope: 3}", "time.duration=null", "gait.speed=1.26"},
+  static const setting c = {"tests/support/walk_rigid.yaml",
+                            {"load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}", SHARED,
+                             "ground={slope: 3}", "time.duration=null", "gait.speed=1.26"},
                             {"load.mass", "subject.mass", "ground.slope", "gait.speed",
                              "gait.step_length", "gait.step_width", "ground_reaction.moment_arm",
                              "ground_reaction.slant", "ground_reaction.pressure.toe[0]",

@@ -1,4 +1,5 @@
 /* Free parameters: the run finds what a search over problems solved one by one finds. */
+#include "problem/nlp.h"
 #include "support/outer_fixture.h"
 #include "ambulo/tools/load.h"
 
@@ -265,6 +266,31 @@ static void a_function_says_what_the_problem_is(void **state) {
   release(&of_file);
 }
 
+/* a problem without a file needs no such function: its numbers have the same names */
+static void numbers_of_any_problem_may_be_free(void **state) {
+  (void)state;
+  static const char *const overrides[] = {"free={ends.final.shoulder: [-60, 20]}"};
+  const double degree = 3.14159265358979324 / 180.0;
+  const ambulo_parameter item = {"ends.final.shoulder", -60.0 * degree, 20.0 * degree};
+  solved of_file = solve(REACH, overrides, 1, NULL), s = {.problem = NULL};
+  ambulo_problem *like = load(REACH, NULL, 0);
+  ambulo_parameters parameters = ambulo_parameters_default();
+  ambulo_options options = ambulo_problem_options(like);
+  parameters.items = &item;
+  parameters.count = 1;
+  assert_int_equal(ambulo_problem_create(&like->definition, NULL, NULL, &s.problem), AMBULO_OK);
+  assert_int_equal(
+      ambulo_solve_parameters(s.problem, &parameters, &options, NULL, NULL, &s.best, &s.result),
+      AMBULO_OK);
+  s.outcome = ambulo_result_parameters(s.result);
+  assert_close(s.outcome->items[0].value, of_file.outcome->items[0].value, 1e-6);
+  assert_true(s.outcome->solves > 1);
+  assert_close(s.best->definition.end_values[4].value, s.outcome->items[0].value, 0.0);
+  release(&s);
+  release(&of_file);
+  ambulo_problem_free(like);
+}
+
 static void expect_refused(const char *file, const ambulo_parameters *parameters,
                            const char *message) {
   ambulo_problem *problem = load(file, NULL, 0), *best = NULL;
@@ -287,7 +313,6 @@ static void arguments_are_checked(void **state) {
   expect_refused(PLANAR, NULL, "0 free parameters");
   p.items = items;
   p.count = 2;
-  expect_refused(PLANAR, &p, "without problem_at");
   p.problem_at = reach_at;
   p.user = &r;
   expect_refused(PLANAR, &p, "'gait.step_length': it is there twice");
@@ -328,6 +353,7 @@ int main(void) {
                                      cmocka_unit_test(values_without_a_solution_are_given_up),
                                      cmocka_unit_test(where_the_first_has_none_nothing_is_varied),
                                      cmocka_unit_test(a_function_says_what_the_problem_is),
+                                     cmocka_unit_test(numbers_of_any_problem_may_be_free),
                                      cmocka_unit_test(arguments_are_checked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
 /* Numbers of devices, and what else moves when bodies wear them, by hand against central
  * differences. */
-#include "solver/partials.h"
 #include "support/sensitivity_check.h"
 
 /* beside a foot's stride; angles in degrees */

@@ -1,6 +1,5 @@
 /* Footholds of any height, slope and heading: every number that a file has a name for, by hand
  * against central differences. */
-#include "solver/partials.h"
 #include "ambulo/tools/load.h"
 #include "support/sensitivity_check.h"
 #include "support/shared_ground.h"
@@ -27,59 +26,6 @@ static void up_stairs(void **state) {
   /* footholds at both ends would have to go along */
   expect_absent(&c, (const char *const[]){"ends.rise", "ends.travel", "contacts[2].place[2]",
                                           "contacts[1].normal[0]", NULL});
-}
-
-/* What no key moves alone: the foothold at 0 sinks by as much as the motion rises, or is behind by
- * as much as it travels. */
-static double lagrangian_of(double travel, double rise, const ambulo_result *r) {
-  char ends[128], behind[64], below[64];
-  ambulo_problem *problem = NULL;
-  const char *const overrides[] = {"gait=null",         ends,   SHARED, "time.duration=0.65",
-                                   "time.intervals=40", STAIRS, behind, below};
-  (void)snprintf(ends, sizeof ends, "ends={kind: mirrored, order: 2, travel: %.17g, rise: %.17g}",
-                 travel, rise);
-  (void)snprintf(behind, sizeof behind, "contacts[2].place[0]=%.17g", -travel);
-  (void)snprintf(below, sizeof below, "contacts[2].place[2]=%.17g", 0.01 - rise);
-  assert_int_equal(
-      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 8, NULL, NULL, &problem),
-      AMBULO_OK);
-  double value = lagrangian_at(problem, r->x, r->multiplier, r->rows);
-  ambulo_problem_free(problem);
-  return value;
-}
-
-static void higher_and_longer_steps(void **state) {
-  (void)state;
-  static const char *const overrides[] = {
-      "gait=null",
-      "ends={kind: mirrored, order: 2, travel: 0.29, rise: 0.17}",
-      SHARED,
-      "time.duration=0.65",
-      "time.intervals=40",
-      STAIRS};
-  ambulo_problem *problem = NULL;
-  ambulo_workspace *workspace = NULL;
-  ambulo__partials by;
-  ambulo__pool pool;
-  const double d = 1e-5;
-  assert_int_equal(
-      ambulo_problem_load("tests/support/walk_rigid.yaml", overrides, 6, NULL, NULL, &problem),
-      AMBULO_OK);
-  ambulo_result *r = scattered(problem);
-  ambulo__pool_init(&pool, NULL);
-  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
-  assert_int_equal(ambulo__partials_at(problem, workspace, r->x, r->multiplier, &pool, &by),
-                   AMBULO_OK);
-  double longer = by.travel - by.place[4], higher = by.end_rise - by.rise[2];
-  double up = lagrangian_of(0.29, 0.17 + d, r) - lagrangian_of(0.29, 0.17 - d, r);
-  double ahead = lagrangian_of(0.29 + d, 0.17, r) - lagrangian_of(0.29 - d, 0.17, r);
-  assert_close(higher, up / (2.0 * d), 1e-8 * (1.0 + fabs(higher)));
-  assert_close(longer, ahead / (2.0 * d), 1e-8 * (1.0 + fabs(longer)));
-  assert_true(fabs(by.travel) > 0.1 && fabs(by.end_rise) > 0.1);
-  ambulo__pool_clear(&pool);
-  ambulo_workspace_free(workspace);
-  ambulo_result_free(r);
-  ambulo_problem_free(problem);
 }
 
 /* up, then down, off a steep side; events of one foot within the swing of the other; ends that do
@@ -126,7 +72,6 @@ static void up_and_down_on_arcs(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(up_stairs),
-      cmocka_unit_test(higher_and_longer_steps),
       cmocka_unit_test(up_and_down_on_events),
       cmocka_unit_test(up_and_down_on_arcs),
   };

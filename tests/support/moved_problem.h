@@ -15,7 +15,8 @@ enum { MOST_WITH = 6 };
 static inline double size_in_file(const ambulo_problem *problem, const ambulo_sensitivity *s) {
   const ambulo__problem_keys *keys = &problem->keys;
   int of_task = strncmp(s->name, "gait.step_l", 11) == 0 || strstr(s->name, "ground_height") ||
-                strncmp(s->name, "ends.", 5) == 0 || strstr(s->name, "tubes");
+                strcmp(s->name, "subject.stature") == 0 || strncmp(s->name, "ends.", 5) == 0 ||
+                strstr(s->name, "tubes");
   if (!keys->written_for) return 1.0;
   if (strncmp(s->name, "objective[", 10) == 0) return (double)NAN;
   if (strcmp(s->unit, "body weights/s") == 0) return 1.0 / sqrt(keys->longer);

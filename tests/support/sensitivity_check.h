@@ -54,21 +54,22 @@ static inline int counts(const ambulo_sensitivity *s) {
   return fabs(s->derivative) * fmax(fabs(s->value), s->step) > 1e-10;
 }
 
-/* 0: the file refuses the number moved. Differences of fourth order for events, whose third
- * derivatives go with the third power of a node's rate */
+/* 0: the file refuses the number moved. Differences of fourth order: third derivatives with events
+ * go with the third power of a node's rate */
 static inline int compare(const setting *c, int count, const ambulo_problem *problem,
                           const ambulo_result *r, const ambulo_sensitivity *s) {
   static const double at[4] = {-1.0, 1.0, -2.0, 2.0};
   double value[4] = {NAN, NAN, NAN, NAN}, travel[4] = {0.0}, by = step_of(s);
-  for (int k = 0; k < (moves_nodes(s) ? 4 : 2); k++) {
+  for (int k = 0; k < 4; k++) {
     ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, at[k] * by);
     if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
     if (moved) travel[k] = moved->definition.travel;
     ambulo_problem_free(moved);
   }
   double difference = (value[1] - value[0]) / (2.0 * by);
-  if (moves_nodes(s)) difference = (4.0 * difference - (value[3] - value[2]) / (4.0 * by)) / 3.0;
+  double wider = (value[3] - value[2]) / (4.0 * by);
   if (isnan(difference)) return 0;
+  if (!isnan(wider)) difference = (4.0 * difference - wider) / 3.0;
   double further = (travel[1] - travel[0]) / (2.0 * by);
   if (!(fabs(further - s->travel) <= 1e-8 * (1.0 + fabs(s->travel))))
     fail_msg("%s: %s carries by %.12g, %.12g by differences", c->file, s->name, s->travel, further);

@@ -73,15 +73,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_problem_load_text(const ambulo_problem_text *text, const ambulo_allocator *allocator,
                          ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
-/* The problem of a file with a section `free`, read again as it was then with its free parameters
- * at values [count], SI and rad; nothing of the new problem is free. E_ARGUMENT: nothing is free in
- * this one. Other errors: as ambulo_problem_load. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem *problem,
-                                                            const double *values,
-                                                            const ambulo_allocator *allocator,
-                                                            ambulo_diagnostics *diagnostics,
-                                                            ambulo_problem **at);
-
 /* ---------------------------------------------------------------- solutions */
 
 /* Reads a solution.yaml into x [variable_count of problem]. A solution on another

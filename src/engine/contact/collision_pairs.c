@@ -159,6 +159,23 @@ static void sort(ambulo__pairs *pairs) {
   }
 }
 
+/* with mirrored ends the mirror image of each pair behind it, too: other poses bring that near. So
+ * the same pairs come out when these are named (keep_named). */
+static void keep_images(const ambulo_problem_definition *d, ambulo__pairs *pairs) {
+  const ambulo_capsule *capsules = d->model->capsules;
+  int met = pairs->kept_count;
+  for (int k = 0; d->ends == AMBULO_ENDS_MIRRORED && k < pairs->kept_count; k++) {
+    int a = capsules[pairs->kept[k].one].mirror, b = capsules[pairs->kept[k].other].mirror, at = 0;
+    ambulo_capsule_pair image = {a < b ? a : b, a < b ? b : a};
+    keep(pairs, a, b);
+    while (is_before(&pairs->kept[at], &image) || is_before(&image, &pairs->kept[at])) at++;
+    if (at <= k) continue;
+    for (; at > k + 1; at--) pairs->kept[at] = pairs->kept[at - 1];
+    pairs->kept[++k] = image;
+  }
+  pairs->too_far -= pairs->kept_count - met;
+}
+
 static ambulo_status keep_automatic(const ambulo_problem_definition *d,
                                     const ambulo_allocator *allocator, ambulo__pairs *pairs) {
   const ambulo_model *m = d->model;
@@ -180,6 +197,7 @@ static ambulo_status keep_automatic(const ambulo_problem_definition *d,
     }
     keep_those_that_meet(d, &pose, q, pairs);
     sort(pairs);
+    keep_images(d, pairs);
   }
   ambulo__pose_free(&pose);
   ambulo__free(allocator, q);

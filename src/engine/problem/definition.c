@@ -139,19 +139,24 @@ static void copy_members(copier *c, const ambulo__structure *s, void *item) {
   }
 }
 
-/* [d][2][3]: torque limits by their prices, which do not depend on the angle; 0 of those without,
- * which stand for 1 */
-static void limits_as_strength(copier *c, ambulo_term *term) {
-  const ambulo_model *model = c->from->model;
-  size_t count = (size_t)ambulo_model_coordinate_count(model);
-  const double *price = term->price;
-  double *curves = ambulo__alloc(c->allocator, 6 * count, sizeof *curves);
-  if (!curves) c->failed = 1;
-  for (size_t i = 0; curves && i < count; i++) {
-    const double *torque = ambulo_model_coordinate(model, (int)i)->torque;
+void ambulo__strength_of_limits(const ambulo_coordinate *coordinates, int count,
+                                const double *price, double *curves) {
+  memset(curves, 0, 6 * (size_t)count * sizeof *curves);
+  for (int i = 0; i < count; i++) {
+    const double *torque = coordinates[i].torque;
     if (isfinite(torque[1])) curves[6 * i] = torque[1] / (price ? price[2 * i + 1] : 1.0);
     if (isfinite(torque[0])) curves[6 * i + 3] = -torque[0] / (price ? price[2 * i] : 1.0);
   }
+}
+
+static void limits_as_strength(copier *c, ambulo_term *term) {
+  const ambulo_model *model = c->from->model;
+  int count = model->coordinate_count;
+  double *curves = ambulo__alloc(c->allocator, 6 * (size_t)count, sizeof *curves);
+  if (curves)
+    ambulo__strength_of_limits(model->coordinates, count, term->price, curves);
+  else
+    c->failed = 1;
   term->strength = curves;
 }
 

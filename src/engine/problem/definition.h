@@ -20,6 +20,10 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
                                       ambulo_problem_definition *to);
 void ambulo__definition_free(const ambulo_allocator *allocator,
                              ambulo_problem_definition *definition);
+/* [count][2][3]: torque limits by their prices (NULL: 1), which do not depend on the angle; 0 of
+ * those without, which stand for 1. */
+void ambulo__strength_of_limits(const ambulo_coordinate *coordinates, int count,
+                                const double *price, double *curves);
 /* A copy's pairs of capsules are these, which it frees, instead of those it had. */
 void ambulo__definition_set_pairs(const ambulo_allocator *allocator,
                                   ambulo_problem_definition *definition, ambulo_capsule_pair *pairs,

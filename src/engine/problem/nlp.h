@@ -60,7 +60,7 @@ struct ambulo_problem {
   ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section
-      *free;                     /* one block (definitions/problem_free.h); NULL: nothing is free */
+      *free;                     /* one block (solver/free_problem.c); NULL: nothing is free */
   const ambulo_problem *extends; /* what this one extends (problem/variants.c); NULL: none */
   ambulo_problem *owned_base;    /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;

@@ -29,7 +29,7 @@ static const char *why(const ambulo__outer *run) {
 static size_t texts_of(const ambulo__outer *run) {
   size_t size = 0;
   for (int i = 0; i < run->parameters.count; i++) {
-    const ambulo__parameter *p = &run->known.list[run->which[i]];
+    const ambulo__parameter *p = run->which[i];
     size += strlen(p->name) + strlen(p->label) + 2;
   }
   return size;
@@ -47,7 +47,7 @@ static void fill_items(const ambulo__outer *run, ambulo__outcome *outcome) {
   char *text = (char *)(outcome->item + run->parameters.count);
   int known = run->best.objective < HUGE_VAL;
   for (int i = 0; i < run->parameters.count; i++) {
-    const ambulo__parameter *p = &run->known.list[run->which[i]];
+    const ambulo__parameter *p = run->which[i];
     const ambulo_parameter *item = &run->parameters.items[i];
     outcome->item[i] =
         (ambulo_parameter_value){.name = put(&text, p->name),

@@ -15,8 +15,7 @@
 #include "base/sized.h"
 #include "base/machine.h"
 #include "base/diagnostics.h"
-#include "contact/effector.h"
-#include "solver/sensitivity_parameters.h"
+#include "solver/sensitivity.h"
 #include "solver/options.h"
 
 #include <math.h>
@@ -36,21 +35,18 @@ static ambulo_status refuse(const ambulo__outer *run, const char *name, const ch
                        "free parameter '%s': %s", name ? name : "", text);
 }
 
-static int find(const ambulo__parameters *known, const char *name) {
-  for (int k = 0; k < known->count; k++)
-    if (strcmp(known->list[k].name, name) == 0) return k;
-  return -1;
-}
-
-static ambulo_status check_item(const ambulo__outer *run, int i) {
+static ambulo_status check_item(ambulo__outer *run, int i) {
   const ambulo_parameter *item = &run->parameters.items[i];
+  int smooth = 1;
   if (!item->name) return refuse(run, NULL, "no name");
   for (int k = 0; k < i; k++)
     if (strcmp(item->name, run->parameters.items[k].name) == 0)
       return refuse(run, item->name, "it is there twice");
-  int which = run->which[i] = find(&run->known, item->name);
-  if (which < 0) return refuse(run, item->name, "it has no sensitivity in this problem");
-  double value = run->known.list[which].value, slack = 1e-12 * (item->upper - item->lower);
+  const ambulo__parameter *p = run->which[i] = ambulo__parameters_find(&run->known, item->name);
+  ambulo_status status = p ? ambulo__parameter_is_smooth(&run->known, p, &smooth) : AMBULO_OK;
+  if (status) return status;
+  if (!p || !smooth) return refuse(run, item->name, "it has no sensitivity in this problem");
+  double value = p->value, slack = 1e-12 * (item->upper - item->lower);
   if (!(item->lower < item->upper) || !isfinite(item->upper - item->lower))
     return refuse(run, item->name, "its bounds do not rise");
   if (!(value >= item->lower - slack && value <= item->upper + slack))
@@ -83,15 +79,6 @@ static ambulo_status check_counts(const ambulo__outer *run) {
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "%d free parameters, at most %d solves; expected at least 1 of each",
                          p->items ? p->count : 0, p->maximum_solves);
-  if (ambulo__holds_patches(&run->problem->definition))
-    return ambulo__error(
-        run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-        "free parameters are chosen by sensitivities, which contacts of patches do "
-        "not have yet; expected contacts of feet alone");
-  if (!p->problem_at && !ambulo__problem_root(run->problem)->free)
-    return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "free parameters without problem_at; expected it, or a problem from a "
-                         "file with a section 'free'");
   return AMBULO_OK;
 }
 
@@ -247,8 +234,7 @@ static ambulo_status begin(ambulo__outer *run) {
     if (!*vectors[i]) status = AMBULO_E_MEMORY;
   }
   run->best.objective = run->latest.objective = NAN;
-  run->known = (ambulo__parameters){.allocator = run->allocator, .problem = run->problem};
-  if (!status) status = ambulo__parameters_name(&run->known);
+  if (!status) status = ambulo__parameters_init(run->problem, &run->allocator, &run->known);
   for (int i = 0; i < run->parameters.count && !status; i++) status = check_item(run, i);
   return status;
 }
@@ -272,7 +258,7 @@ static void end(ambulo__outer *run) {
   for (int i = 0; i < 4; i++) ambulo__free(&run->allocator, vectors[i]);
   ambulo__outer_drop(&run->best);
   ambulo__outer_drop(&run->latest);
-  ambulo__free(&run->allocator, run->known.list);
+  ambulo__parameters_clear(&run->known);
   ambulo__free(&run->allocator, run->which);
 }
 

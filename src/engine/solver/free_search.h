@@ -9,7 +9,7 @@
 #define AMBULO_SOLVER_FREE_SEARCH_H
 
 #include "ambulo/parameters.h"
-#include "solver/sensitivity_parameters.h"
+#include "solver/sensitivity.h"
 
 /* One inner solve. */
 typedef struct ambulo__outer_trial {
@@ -30,7 +30,7 @@ typedef struct ambulo__outer {
   const double *start;
   double started;                   /* s */
   ambulo__parameters known;         /* what the problem's numbers are called */
-  int *which;                       /* [count]: the free ones among them */
+  ambulo__parameter **which;        /* [count]: the free ones among them */
   double first;                     /* F where the run began */
   ambulo__outer_trial best, latest; /* best.result NULL before the first solve */
   int solves, failed, evaluations;
@@ -50,5 +50,15 @@ int ambulo__outer_over(ambulo__outer *run);
 void ambulo__outer_drop(ambulo__outer_trial *trial);
 /* -1, 1: p_i is at its lower, its upper bound; 0: between. */
 int ambulo__outer_bound(const ambulo__outer *run, const double *value, int i);
+
+/* free_problem.c: the parameters, of which a copy is kept, are what the problem has free. E_MEMORY.
+ */
+ambulo_status ambulo__free_keep(ambulo_problem *problem, const ambulo_parameters *parameters);
+/* The problem with the numbers of these names at `values`; it owns its model. E_ARGUMENT: there is
+ * no such number. Other errors: as ambulo_problem_create. */
+ambulo_status ambulo__free_problem(const ambulo_problem *problem,
+                                   const ambulo_parameters *parameters, const double *values,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo_problem **at);
 
 #endif

@@ -5,7 +5,6 @@
  * zero has the last word: a valley may end between the two values.
  */
 #include "solver/free_search.h"
-#include "ambulo/tools/load.h"
 #include "base/machine.h"
 #include "base/diagnostics.h"
 
@@ -89,8 +88,12 @@ static ambulo_status value_of(ambulo__outer *run, ambulo__outer_trial *t) {
   int per_distance = run->parameters.per == AMBULO_PER_DISTANCE;
   t->distance = per_distance ? fabs(t->problem->definition.travel) : 1.0;
   if (t->distance < least_travel) return AMBULO_OK;
-  ambulo_status status =
-      ambulo__sensitivities_nearly(t->problem, t->result, &run->allocator, &list);
+  const char **names = ambulo__alloc(&run->allocator, (size_t)run->parameters.count, sizeof *names);
+  if (!names) return AMBULO_E_MEMORY;
+  for (int i = 0; i < run->parameters.count; i++) names[i] = run->parameters.items[i].name;
+  ambulo_status status = ambulo__sensitivities_nearly(
+      t->problem, t->result, names, run->parameters.count, &run->allocator, &list);
+  ambulo__free(&run->allocator, names);
   if (status == AMBULO_E_NUMERIC) return AMBULO_OK;
   if (status) return status;
   t->objective = ambulo_result_objective(t->result) / t->distance;
@@ -107,7 +110,7 @@ static ambulo_status build(ambulo__outer *run, ambulo__outer_trial *t) {
   if (run->diagnostics && !t->messages) return AMBULO_E_MEMORY;
   if (p->problem_at)
     return p->problem_at(p->user, t->value, &run->allocator, t->messages, &t->problem);
-  return ambulo_problem_at(run->problem, t->value, &run->allocator, t->messages, &t->problem);
+  return ambulo__free_problem(run->problem, p, t->value, &run->allocator, t->messages, &t->problem);
 }
 
 static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, const double *start) {

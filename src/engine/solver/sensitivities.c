@@ -1,8 +1,90 @@
-/* solver/sensitivities.c - ambulo_sensitivities: partials at a result, by name, in words. */
-#include "ambulo/sensitivity.h"
+/* solver/sensitivities.c - ambulo_sensitivities: the numbers of a problem at a result, as a person
+ * says them: "1 cm more step length costs 0.8 %". */
+#include "solver/sensitivity.h"
 
-#include "contact/effector.h"
-#include "solver/sensitivity_parameters.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---------------------------------------------------------------------- words */
+
+#define DEGREE 0.017453292519943295
+
+/* a change that a person can picture, in the unit of the quantity (of a ratio: share of the value),
+ * and in words */
+static const struct {
+  double step;
+  const char *more;
+} changes[] = {
+    [AMBULO__STEP_LENGTH] = {0.01, "1 cm more"},
+    [AMBULO__SHORT_LENGTH] = {0.001, "1 mm more"},
+    [AMBULO__ANGLE] = {DEGREE, "1 degree more"},
+    [AMBULO__SMALL_ANGLE] = {0.1 * DEGREE, "0.1 degrees more"},
+    [AMBULO__TIME] = {0.01, "10 ms more"},
+    [AMBULO__SPEED] = {0.1, "0.1 m/s more"},
+    [AMBULO__TURNING_SPEED] = {0.1, "0.1 rad/s more"},
+    [AMBULO__MASS] = {1.0, "1 kg more"},
+    [AMBULO__TORQUE] = {1.0, "1 N m more"},
+    [AMBULO__FORCE] = {10.0, "10 N more"},
+    [AMBULO__BODY_WEIGHT] = {0.01, "0.01 body weights more"},
+    [AMBULO__TURNING_JOLT] = {1.0, "1 rad/s^2 more"},
+    [AMBULO__JOLT] = {0.1, "0.1 m/s^2 more"},
+    [AMBULO__LOADING_RATE] = {1.0, "1 body weight/s more"},
+    [AMBULO__STRIDE_SHARE] = {0.01, "1 % of the stride later"},
+    [AMBULO__EVENT_TIME] = {0.01, "10 ms later"},
+    [AMBULO__TURNING_STIFF] = {1.0, "1 N m/rad more"},
+    [AMBULO__STIFF] = {10.0, "10 N/m more"},
+    [AMBULO__RATIO] = {0.01, "1 % more"},
+};
+
+static int is_relative(const ambulo__parameter *p) {
+  return p->quantity == AMBULO__RATIO && p->value != 0.0;
+}
+
+double ambulo__parameter_step(const ambulo__parameter *p) {
+  return changes[p->quantity].step * (is_relative(p) ? fabs(p->value) : 1.0);
+}
+
+static void say(ambulo__parameter *p, double objective) {
+  int is_share = p->quantity == AMBULO__RATIO && !is_relative(p);
+  p->step = ambulo__parameter_step(p);
+  const char *more = is_share ? "0.01 more" : changes[p->quantity].more;
+  double change = p->derivative * p->step;
+  p->share = objective > 0.0 ? change / objective : (double)NAN;
+  if (!isfinite(p->share)) {
+    (void)snprintf(p->words, sizeof p->words, "%s %s changes the objective by %.2g", more, p->label,
+                   change);
+  } else if (change == 0.0) {
+    (void)snprintf(p->words, sizeof p->words, "%s %s costs nothing", more, p->label);
+  } else {
+    (void)snprintf(p->words, sizeof p->words, "%s %s %s %.2g %%", more, p->label,
+                   change > 0.0 ? "costs" : "saves", 100.0 * fabs(p->share));
+  }
+}
+
+static double size_of(const ambulo__parameter *p) {
+  return fabs(p->derivative * p->step);
+}
+
+/* larger first; what is not finite last; alike ones as they were */
+static int compare(const void *left, const void *right) {
+  const ambulo__parameter *a = left, *b = right;
+  double x = size_of(a), y = size_of(b);
+  if (x > y || (!isnan(x) && isnan(y))) return -1;
+  if (x < y || (isnan(x) && !isnan(y))) return 1;
+  return a->order - b->order;
+}
+
+void ambulo__parameters_say(ambulo__parameters *p, double objective) {
+  for (int i = 0; i < p->count; i++) {
+    say(&p->list[i], objective);
+    p->list[i].order = i;
+  }
+  if (p->count > 0) qsort(p->list, (size_t)p->count, sizeof *p->list, compare);
+}
+
+/* ------------------------------------------------------------------ the list */
 
 /* one block: the public list first, so that it is freed by its own address */
 typedef struct sensitivity_block {
@@ -44,48 +126,51 @@ static ambulo_status fill(const ambulo__parameters *p, sensitivity_block *block)
   return AMBULO_OK;
 }
 
+/* those of these names alone */
+static void choose(ambulo__parameters *p, const char *const *names, int count) {
+  int kept = 0;
+  for (int i = 0; i < p->count; i++) {
+    int chosen = 0;
+    for (int k = 0; k < count; k++) chosen |= strcmp(p->list[i].name, names[k]) == 0;
+    if (chosen) p->list[kept++] = p->list[i];
+  }
+  p->count = kept;
+}
+
 static ambulo_status collect(const ambulo_problem *problem, const ambulo_result *result,
-                             sensitivity_block *block) {
-  ambulo_workspace *workspace = NULL;
-  ambulo__partials partials;
-  ambulo__pool pool;
-  ambulo__parameters p = {.allocator = block->allocator, .problem = problem, .partials = &partials};
-  ambulo_status status =
-      ambulo__workspace_create_for_values(problem, &block->allocator, &workspace);
-  if (status) return status;
-  ambulo__pool_init(&pool, &block->allocator);
-  status = ambulo__partials_at(problem, workspace, ambulo_result_x(result),
-                               ambulo_result_multipliers(result), &pool, &partials);
-  if (!status) status = ambulo__parameters_collect(&p);
-  block->parameters = p.list;
+                             const char *const *names, int count, sensitivity_block *block) {
+  ambulo__parameters p;
+  ambulo_status status = ambulo__parameters_init(problem, &block->allocator, &p);
+  if (names) choose(&p, names, count);
+  if (!status)
+    status =
+        ambulo__parameters_differ(&p, ambulo_result_x(result), ambulo_result_multipliers(result));
   if (!status) {
     ambulo__parameters_say(&p, ambulo_result_objective(result));
     status = fill(&p, block);
   }
-  ambulo__pool_clear(&pool);
-  ambulo_workspace_free(workspace);
+  block->parameters = p.list;
+  p.list = NULL;
+  ambulo__parameters_clear(&p);
   return status;
 }
 
-static const char none_of_patches[] = "there are none yet for contacts of patches";
-
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
-  if (ambulo__holds_patches(&problem->definition)) return none_of_patches;
   if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";
 }
 
 static ambulo_status list_of(const ambulo_problem *problem, const ambulo_result *result,
-                             const char *reason, const ambulo_allocator *allocator,
-                             ambulo_sensitivity_list **list) {
+                             const char *reason, const char *const *names, int count,
+                             const ambulo_allocator *allocator, ambulo_sensitivity_list **list) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   sensitivity_block *block = ambulo__alloc(&own, 1, sizeof *block);
   if (!block) return AMBULO_E_MEMORY;
   block->allocator = own;
   block->list.reason = reason;
-  ambulo_status status = block->list.reason[0] ? AMBULO_OK : collect(problem, result, block);
+  ambulo_status status = reason[0] ? AMBULO_OK : collect(problem, result, names, count, block);
   if (status) {
     ambulo_sensitivities_free(&block->list);
     return status;
@@ -98,13 +183,12 @@ ambulo_status ambulo_sensitivities(const ambulo_problem *problem, const ambulo_r
                                    const ambulo_allocator *allocator,
                                    ambulo_sensitivity_list **list) {
   if (!problem || !result || !list) return AMBULO_E_ARGUMENT;
-  return list_of(problem, result, reason_against(problem, result), allocator, list);
+  return list_of(problem, result, reason_against(problem, result), NULL, 0, allocator, list);
 }
 
 ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
-                                           const ambulo_result *result,
-                                           const ambulo_allocator *allocator,
+                                           const ambulo_result *result, const char *const *names,
+                                           int count, const ambulo_allocator *allocator,
                                            ambulo_sensitivity_list **list) {
-  const char *reason = ambulo__holds_patches(&problem->definition) ? none_of_patches : "";
-  return list_of(problem, result, reason, allocator, list);
+  return list_of(problem, result, "", names, count, allocator, list);
 }

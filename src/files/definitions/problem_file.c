@@ -275,7 +275,6 @@ static ambulo__problem_reader reader_make(const ambulo_allocator *allocator,
   ambulo__problem_reader reader = {.allocator = ambulo__allocator_or_default(allocator),
                                    .diagnostics = diagnostics,
                                    .directory = "",
-                                   .load = ambulo_problem_load_text,
                                    .definition = ambulo_problem_definition_default(),
                                    .options = ambulo_options_default()};
   return reader;
@@ -341,14 +340,6 @@ ambulo_status ambulo_problem_load_text(const ambulo_problem_text *text,
   reader.override_count = own.override_count;
   return ambulo__conclude(diagnostics, errors, read_text(&reader, problem), own.name);
 }
-
-ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *values,
-                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                ambulo_problem **at) {
-  if (!problem || !values || !at || !ambulo__problem_root(problem)->free) return AMBULO_E_ARGUMENT;
-  return ambulo__problem_at(ambulo_problem_load_text, problem, values, allocator, diagnostics, at);
-}
-
 /* -------------------------------------------------------------- model or problem? */
 
 ambulo_status ambulo_file_kind_of(const char *path, const ambulo_allocator *allocator,

@@ -1,15 +1,13 @@
 /* definitions/problem_free.c - `free:` of a problem file: which numbers the solver chooses, between
  * which bounds.
  *
- * The keys are names of sensitivities, which are known once there is a problem. Each bound is
- * tried: the file is read with it, so that what no file may say is told at the bound. Whether a
- * problem makes sense at a bound is found out by the run.
+ * The keys are names of sensitivities, which are known once there is a problem. A bound that no
+ * file may say is refused; whether a problem makes sense at a bound is found out by the run.
  */
 #include "definitions/problem_free.h"
 
 #include "formats/text_hash.h"
-#include "contact/effector.h"
-#include "solver/sensitivity_parameters.h"
+#include "solver/free_search.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,19 +22,12 @@ typedef struct gathered {
   ambulo_problem *problem;
   ambulo__parameters known;
   ambulo_parameter *item;
-  ambulo__free_key *key;
   int count;
   ambulo_per per;
   int solves;
 } gathered;
 
 /* ------------------------------------------------------------------- refusals */
-
-static const ambulo__parameter *find(const gathered *g, const char *name) {
-  for (int i = 0; i < g->known.count; i++)
-    if (strcmp(g->known.list[i].name, name) == 0) return &g->known.list[i];
-  return NULL;
-}
 
 /* names of the walk, the ground and the body one by one, of lists by their heads */
 static void list_known(const gathered *g, char text[LIST]) {
@@ -87,46 +78,27 @@ static void tell_outside(const ambulo__yaml_node *node, const ambulo__parameter 
                            p->name, value, bound[0], bound[1], of_unit[0] ? ", in " : "", of_unit);
 }
 
-/* what the file's reader says of a bound by itself; what its problem says is for the run */
-static ambulo_status try_bound(const gathered *g, const ambulo__yaml_node *node,
-                               const double *values) {
-  ambulo_diagnostics *list = ambulo_diagnostics_create(&g->reader->allocator);
-  if (!list) return AMBULO_E_MEMORY;
-  ambulo_problem *at = NULL;
-  ambulo_status status =
-      ambulo__problem_at(g->reader->load, g->problem, values, &g->reader->allocator, list, &at);
-  ambulo_problem_free(at);
-  int own = status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_ARGUMENT;
-  const ambulo_diagnostic *first = ambulo_diagnostics_get(list, 0);
-  if (own)
-    status = ambulo__yaml_error(node, AMBULO_E_SCHEMA, first ? first->hint : NULL, "%s",
-                                first ? first->message : ambulo_status_text(status));
-  else if (status != AMBULO_E_MEMORY)
-    status = AMBULO_OK;
-  ambulo_diagnostics_free(list);
-  return status;
-}
-
-static ambulo_status try_bounds(const gathered *g) {
-  ambulo_status status = AMBULO_OK;
-  double values[MOST_FREE];
-  for (int i = 0; i < g->count && !status; i++) {
-    const ambulo__yaml_node *node = ambulo__yaml_get(g->section, g->item[i].name);
-    for (int side = 0; side < 2 && !status; side++) {
-      for (int k = 0; k < g->count; k++) values[k] = find(g, g->item[k].name)->value;
-      values[i] = side ? g->item[i].upper : g->item[i].lower;
-      status = try_bound(g, ambulo__yaml_item(node, side), values);
-    }
-  }
-  return status;
+/* what no file may say */
+static int is_legal(const ambulo__yaml_node *node, const ambulo__parameter *p, double unit,
+                    double bound) {
+  double low = p->low / unit, high = p->high / unit;
+  if (bound >= low * (1.0 - 1e-12) - 1e-300 && bound <= high * (1.0 + 1e-12)) return 1;
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "got '%g'; expected a number from %g to %g",
+                           bound, low, high);
+  return 0;
 }
 
 /* -------------------------------------------------------------------- reading */
 
 static void read_item(gathered *g, const char *name, const ambulo__yaml_node *node) {
   double bound[2] = {0.0, 0.0};
-  const ambulo__parameter *p = find(g, name);
-  if (!p) {
+  const ambulo__parameter *p = ambulo__parameters_find(&g->known, name);
+  int smooth = 1;
+  if (p && ambulo__parameter_is_smooth(&g->known, p, &smooth)) {
+    g->reader->failure = AMBULO_E_MEMORY;
+    return;
+  }
+  if (!p || !smooth) {
     refuse_name(g, node, name);
     return;
   }
@@ -154,8 +126,10 @@ static void read_item(gathered *g, const char *name, const ambulo__yaml_node *no
     tell_outside(node, p, unit, bound);
     return;
   }
-  g->item[g->count] = (ambulo_parameter){p->name, lower, upper};
-  g->key[g->count++] = (ambulo__free_key){p->with, p->with_sign, unit};
+  if (!is_legal(ambulo__yaml_item(node, 0), p, unit, bound[0]) ||
+      !is_legal(ambulo__yaml_item(node, 1), p, unit, bound[1]))
+    return;
+  g->item[g->count++] = (ambulo_parameter){p->name, lower, upper};
 }
 
 static int is_setting(const char *key) {
@@ -191,68 +165,6 @@ static void read_items(gathered *g) {
                            items, MOST_FREE);
 }
 
-/* -------------------------------------------------------------------- packing */
-
-/* takes `size` bytes of the block at *used, or only counts them without a block */
-static void *take(char *block, size_t *used, const void *from, size_t size) {
-  size_t at = (*used + sizeof(max_align_t) - 1) / sizeof(max_align_t) * sizeof(max_align_t);
-  *used = at + size;
-  if (!block) return NULL;
-  if (from && size) memcpy(block + at, from, size);
-  return block + at;
-}
-
-static const char *take_text(char *block, size_t *used, const char *text) {
-  return take(block, used, text, strlen(text) + 1);
-}
-
-/* Lays the section out in `block`, with nothing of the reader's left in it; returns its size. */
-static size_t lay_out(const gathered *g, char *block) {
-  const ambulo__problem_reader *r = g->reader;
-  size_t used = 0, count = (size_t)g->count, overrides = (size_t)r->override_count;
-  ambulo__free_section *s = take(block, &used, NULL, sizeof *s);
-  ambulo_parameter *item = take(block, &used, g->item, count * sizeof *item);
-  ambulo__free_key *key = take(block, &used, g->key, count * sizeof *key);
-  const char **override = take(block, &used, NULL, overrides * sizeof *override);
-  const char *text = take(block, &used, r->text, r->length);
-  const char *name = take_text(block, &used, r->name);
-  const char *directory = take_text(block, &used, r->directory);
-  for (size_t i = 0; i < overrides; i++) {
-    const char *copy = take_text(block, &used, r->override[i]);
-    if (block) override[i] = copy;
-  }
-  for (size_t i = 0; i < count; i++) {
-    const char *own = take_text(block, &used, g->item[i].name);
-    const char *with = take_text(block, &used, g->key[i].with);
-    if (!block) continue;
-    item[i].name = own;
-    key[i].with = with;
-  }
-  if (!block) return used;
-  *s = (ambulo__free_section){ambulo_parameters_default(),
-                              item,
-                              key,
-                              text,
-                              r->length,
-                              name,
-                              directory,
-                              override,
-                              r->override_count};
-  s->parameters.items = item;
-  s->parameters.count = g->count;
-  s->parameters.per = g->per;
-  s->parameters.maximum_solves = g->solves;
-  return used;
-}
-
-static ambulo_status pack(const gathered *g) {
-  char *block = ambulo__alloc(&g->problem->allocator, lay_out(g, NULL), 1);
-  if (!block) return AMBULO_E_MEMORY;
-  (void)lay_out(g, block);
-  g->problem->free = (ambulo__free_section *)(void *)block;
-  return AMBULO_OK;
-}
-
 /* another result than without */
 static unsigned long long add_to_hash(unsigned long long hash, const gathered *g) {
   char text[64];
@@ -264,16 +176,19 @@ static unsigned long long add_to_hash(unsigned long long hash, const gathered *g
 }
 
 static ambulo_status gather(gathered *g) {
-  ambulo_status status = ambulo__parameters_name(&g->known);
+  ambulo_status status = ambulo__parameters_init(g->problem, &g->reader->allocator, &g->known);
   g->item = ambulo__reader_alloc(g->reader, MOST_FREE, sizeof *g->item);
-  g->key = ambulo__reader_alloc(g->reader, MOST_FREE, sizeof *g->key);
-  if (status || !g->item || !g->key) return AMBULO_E_MEMORY;
+  if (status || !g->item) return AMBULO_E_MEMORY;
   read_settings(g);
   read_items(g);
   if (g->reader->failure) return g->reader->failure;
   status = ambulo__yaml_finish(g->reader->document);
-  if (!status) status = pack(g);
-  if (!status) status = try_bounds(g);
+  ambulo_parameters free = ambulo_parameters_default();
+  free.items = g->item;
+  free.count = g->count;
+  free.per = g->per;
+  free.maximum_solves = g->solves;
+  if (!status) status = ambulo__free_keep(g->problem, &free);
   if (!status) g->problem->hash = add_to_hash(g->problem->hash, g);
   return status;
 }
@@ -282,17 +197,8 @@ ambulo_status ambulo__read_free(ambulo__problem_reader *reader, const ambulo__ya
                                 ambulo_problem *problem) {
   const ambulo__yaml_node *section = ambulo__reader_section(root, "free");
   if (!section) return ambulo__yaml_finish(reader->document);
-  if (ambulo__holds_patches(&problem->definition)) {
-    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
-                             "free numbers are chosen by sensitivities, which contacts of patches "
-                             "do not have yet; expected contacts of feet alone");
-    return ambulo__yaml_finish(reader->document);
-  }
-  gathered g = {.reader = reader,
-                .section = section,
-                .problem = problem,
-                .known = {.allocator = reader->allocator, .problem = problem}};
+  gathered g = {.reader = reader, .section = section, .problem = problem};
   ambulo_status status = gather(&g);
-  ambulo__free(&g.known.allocator, g.known.list);
+  ambulo__parameters_clear(&g.known);
   return status;
 }

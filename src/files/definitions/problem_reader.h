@@ -16,12 +16,6 @@
 
 typedef struct ambulo__reader_block ambulo__reader_block;
 
-/* ambulo_problem_load_text */
-typedef ambulo_status ambulo__text_loader(const ambulo_problem_text *text,
-                                          const ambulo_allocator *allocator,
-                                          ambulo_diagnostics *diagnostics,
-                                          ambulo_problem **problem);
-
 typedef struct ambulo__problem_reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
@@ -31,7 +25,6 @@ typedef struct ambulo__problem_reader {
   size_t length;
   const char *const *override; /* [override_count], which it is read with */
   int override_count;
-  ambulo__text_loader *load;     /* of the same text, with other overrides */
   ambulo__reader_block *blocks;  /* freed with the reader */
   ambulo_status failure;         /* E_MEMORY, or what a referenced file failed with */
   double radians;                /* per unit of angle in the file; 0: not stated */

@@ -1,0 +1,151 @@
+/* solver/parameters.c - the list of numbers: adding, finding, moving, units. */
+#include "solver/sensitivity.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ----------------------------------------------------------------------- list */
+
+/* room for one more of `count` items; 0: memory ran out */
+static int grow(ambulo__parameters *p, void **items, int count, int *capacity, size_t size) {
+  if (count < *capacity) return 1;
+  int larger = *capacity ? 2 * *capacity : 16;
+  void *moved = ambulo__realloc(&p->allocator, *items, (size_t)larger, size);
+  p->failed |= !moved;
+  if (!moved) return 0;
+  *items = moved;
+  *capacity = larger;
+  return 1;
+}
+
+void ambulo__parameter_place(ambulo__parameters *p, double sign, double *at) {
+  void *addresses = p->address;
+  if (p->failed || !grow(p, &addresses, p->addresses, &p->address_capacity, sizeof *p->address))
+    return;
+  p->address = addresses;
+  p->address[p->addresses++] = (ambulo__address){at, sign};
+  p->list[p->count - 1].addresses++;
+}
+
+void ambulo__parameter_add(ambulo__parameters *p, ambulo__quantity quantity, double *at,
+                           const char *label, const char *name, ...) {
+  void *list = p->list;
+  if (p->failed || !grow(p, &list, p->count, &p->capacity, sizeof *p->list)) return;
+  p->list = list;
+  ambulo__parameter *next = &p->list[p->count++];
+  *next = p->next;
+  next->quantity = quantity;
+  next->value = *at;
+  next->low = -HUGE_VAL;
+  next->high = HUGE_VAL;
+  next->address = p->addresses;
+  va_list arguments;
+  va_start(arguments, name);
+  (void)vsnprintf(next->name, sizeof next->name, name, arguments);
+  va_end(arguments);
+  (void)snprintf(next->label, sizeof next->label, "%s", label);
+  ambulo__parameter_place(p, 1.0, at);
+}
+
+void ambulo__parameter_with(ambulo__parameters *p, double sign, double *at, const char *name, ...) {
+  if (p->failed) return;
+  ambulo__parameter *last = &p->list[p->count - 1];
+  size_t used = strlen(last->with), room = sizeof last->with - used;
+  int comma = used ? snprintf(last->with + used, room, ", ") : 0;
+  last->with_sign = sign;
+  va_list arguments;
+  va_start(arguments, name);
+  int length = vsnprintf(last->with + used + comma, room - (size_t)comma, name, arguments);
+  va_end(arguments);
+  if ((size_t)(comma + length) >= room)
+    p->count--;
+  else
+    ambulo__parameter_place(p, sign, at);
+}
+
+void ambulo__parameter_within(ambulo__parameters *p, double low, double high) {
+  if (p->failed) return;
+  p->list[p->count - 1].low = low;
+  p->list[p->count - 1].high = high;
+}
+
+int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign) {
+  const ambulo_coordinate *c = &problem->model->coordinates[i];
+  *sign = c->mirror_sign;
+  if (problem->definition.ends != AMBULO_ENDS_MIRRORED) return -1;
+  return c->mirror == i && c->mirror_sign > 0.0 ? -1 : c->mirror;
+}
+
+ambulo_status ambulo__parameters_init(const ambulo_problem *problem,
+                                      const ambulo_allocator *allocator, ambulo__parameters *p) {
+  *p = (ambulo__parameters){.allocator = ambulo__allocator_or_default(allocator),
+                            .problem = problem};
+  ambulo_status status = ambulo__variant_init(problem, &p->allocator, &p->variant);
+  if (status) return status;
+  ambulo__parameters_of_walk(p);
+  ambulo__parameters_of_body(p);
+  ambulo__parameters_of_devices(p);
+  ambulo__parameters_of_holds(p);
+  ambulo__parameters_of_terms(p);
+  ambulo__parameters_of_task(p);
+  ambulo__parameters_of_limits(p);
+  return p->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+void ambulo__parameters_clear(ambulo__parameters *p) {
+  ambulo__free(&p->allocator, p->list);
+  ambulo__free(&p->allocator, p->address);
+  ambulo__variant_clear(&p->variant);
+  *p = (ambulo__parameters){.count = 0};
+}
+
+ambulo__parameter *ambulo__parameters_find(const ambulo__parameters *p, const char *name) {
+  for (int i = 0; i < p->count; i++)
+    if (strcmp(p->list[i].name, name) == 0) return &p->list[i];
+  return NULL;
+}
+
+void ambulo__parameter_set(ambulo__parameters *p, const ambulo__parameter *parameter,
+                           double value) {
+  for (int i = 0; i < parameter->addresses; i++) {
+    const ambulo__address *m = &p->address[parameter->address + i];
+    *m->at = m->sign * value;
+  }
+}
+
+/* ---------------------------------------------------------------------- units */
+
+/* what a file's number is multiplied by where it is written for another body; 0: not known */
+static double size_of(const ambulo__problem_keys *keys, const char *name) {
+  static const char *const lengths[] = {"gait.step_width",
+                                        "constraints.contact_tolerance",
+                                        "constraints.zmp_margin",
+                                        "constraints.clearance.height",
+                                        "constraints.clearance.ceiling",
+                                        "constraints.clearance.outward",
+                                        "constraints.clearance.inward",
+                                        "constraints.clearance.feet",
+                                        "constraints.collision.margin",
+                                        "ground_reaction.moment_arm",
+                                        "ground_reaction.free_moment",
+                                        "ground_reaction.pressure."};
+  if (!keys->written_for) return 1.0;
+  if (strncmp(name, "objective[", 10) == 0) return 0.0;
+  if (strcmp(name, "ground_reaction.loading_rate") == 0) return 1.0 / sqrt(keys->longer);
+  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
+    if (strncmp(name, lengths[i], strlen(lengths[i])) == 0) return keys->longer;
+  return 1.0;
+}
+
+double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *p) {
+  const ambulo__model_units *units = &problem->model->units;
+  int of_model = strncmp(p->name, "model.", 6) == 0;
+  int turns = p->quantity == AMBULO__ANGLE || p->quantity == AMBULO__TURNING_SPEED ||
+              p->quantity == AMBULO__TURNING_JOLT;
+  if (!of_model) return size_of(&problem->keys, p->name) * (turns ? problem->keys.radians : 1.0);
+  if (turns) return units->angle;
+  if (p->quantity == AMBULO__TORQUE) return units->moment;
+  return p->quantity == AMBULO__FORCE ? units->force : units->length;
+}

@@ -1,0 +1,121 @@
+/* solver/sensitivity.h - the numbers of a problem: where each stands, what it is called, and the
+ * derivative of the best objective with it.
+ *
+ * Reading order: variant.h, variant.c; sensitivity.h, numbers_walk.c, numbers_body.c,
+ * numbers_task.c; differences.c; sensitivity.c.
+ */
+#ifndef AMBULO_SOLVER_SENSITIVITY_H
+#define AMBULO_SOLVER_SENSITIVITY_H
+
+#include "ambulo/sensitivity.h"
+#include "problem/members.h"
+#include "solver/variant.h"
+
+enum { AMBULO__PARAMETER_TEXT = 320 };
+
+/* What a label ends with when the other side's number moves along. */
+#define AMBULO__BOTH_OF_A_PAIR " (both sides)"
+
+/* A place in the variant that has the number's value, or its opposite. */
+typedef struct ambulo__address {
+  double *at, sign;
+} ambulo__address;
+
+/* What the Lagrangian depends on a number through. */
+typedef enum ambulo__enters {
+  AMBULO__ENTERS_ALL,
+  AMBULO__ENTERS_TERM,  /* one term of the objective alone, at the same channels */
+  AMBULO__ENTERS_LIMITS /* bounds of rows; those of torque also as strength in the objective */
+} ambulo__enters;
+
+typedef struct ambulo__parameter {
+  char name[AMBULO__PARAMETER_TEXT];     /* "gait.step_length" */
+  char label[AMBULO__PARAMETER_TEXT];    /* "step length" */
+  char with[4 * AMBULO__PARAMETER_TEXT]; /* those that move by with_sign as much, "a, b"; "" */
+  double with_sign;
+  char words[3 * AMBULO__PARAMETER_TEXT];
+  ambulo__quantity quantity;
+  double value, derivative, step; /* SI, rad; step after ambulo__parameters_say */
+  double travel;                  /* d/dp of the definition's travel, m */
+  double share;                   /* of f*, by one step; NaN where f* is not positive */
+  int order;                      /* before sorting */
+  double low, high;               /* what a file may say, SI, rad */
+  int address, addresses;         /* first of the list's, and how many */
+  ambulo__enters enters;
+  int term;         /* of AMBULO__ENTERS_TERM */
+  int moves_events; /* nodes, or what is active at one, go along: where it may have no derivative */
+} ambulo__parameter;
+
+typedef struct ambulo__parameters {
+  ambulo_allocator allocator;
+  const ambulo_problem *problem;
+  ambulo__variant variant;
+  ambulo__parameter *list;
+  int count, capacity;
+  ambulo__address *address;
+  int addresses, address_capacity;
+  ambulo__parameter next; /* part, term and moves_events of those added from now on */
+  int failed;             /* sticky: memory ran out */
+} ambulo__parameters;
+
+/* Every number that the problem's file has, or could have, a key for; derivatives are 0. To be
+ * cleared also on failure. E_MEMORY. */
+ambulo_status ambulo__parameters_init(const ambulo_problem *problem,
+                                      const ambulo_allocator *allocator,
+                                      ambulo__parameters *parameters);
+void ambulo__parameters_clear(ambulo__parameters *parameters);
+/* NULL: there is none of that name. */
+ambulo__parameter *ambulo__parameters_find(const ambulo__parameters *parameters, const char *name);
+
+/* Adds one that stands at `at`; `label` and the name's format are for people. */
+void ambulo__parameter_add(ambulo__parameters *parameters, ambulo__quantity quantity, double *at,
+                           const char *label, const char *name, ...);
+/* The one added last stands at `at` as well, `sign` times: without a name of its own; or under one
+ * (with more than one always the same sign). Without room for so many names it is dropped. */
+void ambulo__parameter_place(ambulo__parameters *parameters, double sign, double *at);
+void ambulo__parameter_with(ambulo__parameters *parameters, double sign, double *at,
+                            const char *name, ...);
+/* ... stays within, in a file. */
+void ambulo__parameter_within(ambulo__parameters *parameters, double low, double high);
+/* With mirrored ends left and right have to stay alike: the coordinate whose numbers move together
+ * with those of i (i itself, if it is its own image turned round), *sign times; -1: none has to. */
+int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign);
+/* SI and rad per unit that the problem's file has for it; 0: its unit of angle is not stated. */
+double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
+
+/* The pieces: gait, contacts, duration, travel; body, its limits, devices, what hands hold; terms,
+ * constraints, ground, obstacles. */
+void ambulo__parameters_of_walk(ambulo__parameters *parameters);
+void ambulo__parameters_of_body(ambulo__parameters *parameters);
+void ambulo__parameters_of_limits(ambulo__parameters *parameters);
+void ambulo__parameters_of_devices(ambulo__parameters *parameters);
+void ambulo__parameters_of_holds(ambulo__parameters *parameters);
+void ambulo__parameters_of_terms(ambulo__parameters *parameters);
+void ambulo__parameters_of_task(ambulo__parameters *parameters);
+
+/* Sets one to a value, in the variant. */
+void ambulo__parameter_set(ambulo__parameters *parameters, const ambulo__parameter *parameter,
+                           double value);
+
+/* differences.c: derivative and travel of each at a point with its multipliers; the point need not
+ * be optimal: then they are those of the Lagrangian. Those that have none are taken out, and limits
+ * that the motion does not touch. E_MEMORY; E_NUMERIC if the point has no finite values. */
+ambulo_status ambulo__parameters_differ(ambulo__parameters *parameters, const double *x,
+                                        const double *multiplier);
+/* *smooth 0: it has none, whatever the motion. E_MEMORY. */
+ambulo_status ambulo__parameter_is_smooth(ambulo__parameters *parameters,
+                                          const ambulo__parameter *parameter, int *smooth);
+
+/* ambulo_sensitivities of a point that may not be optimal: as good as it is; of the numbers of
+ * these names alone (NULL: of all). */
+ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
+                                           const ambulo_result *result, const char *const *names,
+                                           int count, const ambulo_allocator *allocator,
+                                           ambulo_sensitivity_list **list);
+
+/* Steps, shares and words; the largest share comes first. */
+void ambulo__parameters_say(ambulo__parameters *parameters, double objective);
+/* The change that a person can picture, in unit. */
+double ambulo__parameter_step(const ambulo__parameter *parameter);
+
+#endif
