@@ -150,14 +150,6 @@ static void no_rows_change_nothing(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
-static int test_border_tests(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(solutions_satisfy_their_equations),
-                                     cmocka_unit_test(the_relative_shift_is_one_of_the_largest),
-                                     cmocka_unit_test(dependent_rows_are_noticed),
-                                     cmocka_unit_test(no_rows_change_nothing)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
-
 /* Rows that come and go, against a dense LU factorization of the changed system. */
 
 enum {
@@ -362,8 +354,12 @@ static void more_stiffness_takes_a_factor(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
-static int test_update_tests(void) {
+int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(solutions_satisfy_their_equations),
+      cmocka_unit_test(the_relative_shift_is_one_of_the_largest),
+      cmocka_unit_test(dependent_rows_are_noticed),
+      cmocka_unit_test(no_rows_change_nothing),
       cmocka_unit_test(solutions_are_those_of_the_changed_system),
       cmocka_unit_test(rows_that_go),
       cmocka_unit_test(without_room_it_is_factored_anew),
@@ -371,8 +367,4 @@ static int test_update_tests(void) {
       cmocka_unit_test(more_stiffness_takes_a_factor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
-}
-
-int main(void) {
-  return test_border_tests() + test_update_tests();
 }

@@ -250,21 +250,6 @@ static void small_right_hand_sides_are_as_exact(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
-static int test_kkt_tests(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(solution_is_the_dense_one),
-      cmocka_unit_test(rows_hold_to_rounding),
-      cmocka_unit_test(dependent_rows_do_no_harm),
-      cmocka_unit_test(a_border_row_that_vanishes_does_no_harm),
-      cmocka_unit_test(rows_that_nearly_depend_are_made_stiffer),
-      cmocka_unit_test(what_drowns_the_metric_goes_row_by_row),
-      cmocka_unit_test(an_indefinite_metric_is_refused),
-      cmocka_unit_test(a_local_row_that_vanishes_does_no_harm),
-      cmocka_unit_test(small_right_hand_sides_are_as_exact),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
-
 /* Mixing solves a linear fixed-point problem that plain iteration does not. */
 
 enum { TEST_MIXING_N = 3 };
@@ -356,16 +341,21 @@ static void the_oldest_pair_gives_way(void **state) {
   ambulo__pool_clear(&pool);
 }
 
-static int test_mixing_tests(void) {
+int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(solution_is_the_dense_one),
+      cmocka_unit_test(rows_hold_to_rounding),
+      cmocka_unit_test(dependent_rows_do_no_harm),
+      cmocka_unit_test(a_border_row_that_vanishes_does_no_harm),
+      cmocka_unit_test(rows_that_nearly_depend_are_made_stiffer),
+      cmocka_unit_test(what_drowns_the_metric_goes_row_by_row),
+      cmocka_unit_test(an_indefinite_metric_is_refused),
+      cmocka_unit_test(a_local_row_that_vanishes_does_no_harm),
+      cmocka_unit_test(small_right_hand_sides_are_as_exact),
       cmocka_unit_test(linear_problem_is_solved_in_a_few_steps),
       cmocka_unit_test(repeated_residual_leaves_the_image_finite),
       cmocka_unit_test(parallel_residuals_are_extrapolated),
       cmocka_unit_test(the_oldest_pair_gives_way),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
-}
-
-int main(void) {
-  return test_kkt_tests() + test_mixing_tests();
 }

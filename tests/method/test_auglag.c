@@ -2,7 +2,7 @@
  * itself, and without its update nothing is solved. */
 #define _GNU_SOURCE /* dlsym's RTLD_NEXT */
 #include "base/arithmetic.h"
-#include "method/auglag.h"
+#include "method/pipeline.h"
 #include "support/engine_fixture.h"
 #include "support/arm.h"
 

@@ -1,6 +1,6 @@
 /* Starts of the caller: valid ones are not made worse, rough ones are smoothed, and where one leads
  * nowhere the solver tries its own. */
-#include "method/smooth.h"
+#include "method/pipeline.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 

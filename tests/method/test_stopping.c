@@ -1,5 +1,5 @@
 /* What ends the method on one grid, point by point. */
-#include "method/stopping.h"
+#include "method/pipeline.h"
 #include "support/engine_fixture.h"
 
 /* a point with these figures; x is what polishing would move */

@@ -2,7 +2,7 @@
  * seconds. */
 #include "show/summary_json.h"
 
-#include "method/history.h"
+#include "method/run.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"
 #include "support/yaml.h"

@@ -1,6 +1,6 @@
 /* Grids that are finer by four: the same problem is solved, in little more iterations. What each
  * holds: penalties row by row where common ones drown the metric (linear/kkt.c), and polishing that
- * is relative to the metric (method/polish.c). */
+ * is relative to the metric (method/stopping.c). */
 #include "support/problem_path.h"
 #include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"

@@ -4,12 +4,10 @@
 
 #include "method/augmented.h"
 #include "ambulo/tools/load.h"
-#include "method/engine_point.h"
+#include "method/point.h"
 #include "method/model_step.h"
 #include "method/pipeline.h"
-#include "method/polish.h"
-#include "method/restore.h"
-#include "method/retraction.h"
+#include "method/equalities.h"
 #include "support/problem_path.h"
 #include "support/test.h"
 

@@ -1,4 +1,4 @@
-/* method/auglag.c - see auglag.h.
+/* method/auglag.c - see pipeline.h.
  *
  * The problem on the equalities' surface, minimize f(x) subject to v_i(x) <= 0, is NLopt's: AUGLAG
  * (Birgin & Martinez 2008) around its L-BFGS is given
@@ -33,12 +33,10 @@
  * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
  * row is violated, with 10 where none is and f > 0: S makes R of it.
  */
-#include "method/auglag.h"
+#include "method/pipeline.h"
 #include "method/augmented.h"
-#include "method/chart.h"
 #include "method/mirror.h"
 #include "method/model_step.h"
-#include "method/nlopt_facts.h"
 #include "method/parameters.h"
 
 #include <math.h>
@@ -317,8 +315,7 @@ static int call(drive *s) {
   }
   nlopt_destroy(outer);
   nlopt_destroy(local);
-  ambulo__run_nlopt(e->run, result, ambulo__nlopt_name(result),
-                    ambulo__seconds_now() - begin - (s->seconds - inside));
+  ambulo__run_nlopt(e->run, result, ambulo__seconds_now() - begin - (s->seconds - inside));
   return result;
 }
 

@@ -22,11 +22,11 @@
  */
 #include "method/direct.h"
 #include "base/arithmetic.h"
-#include "method/engine_point.h"
+#include "method/point.h"
 #include "method/model_step.h"
-#include "method/nlopt_facts.h"
+#include "method/mirror.h"
 #include "method/parameters.h"
-#include "method/restore.h"
+#include "method/equalities.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -228,11 +228,11 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algori
   if (result >= 0) result = add_sets(d, opt, of_rows);
   memset(d->w, 0, n * sizeof *d->w);
   if (result >= 0) result = nlopt_optimize(opt, d->w, &least);
-  d->message = ambulo__nlopt_name(result);
   nlopt_destroy(opt);
   inside = d->engine->workspace->seconds_evaluate - inside;
   run->nlopt.inner += run->evaluations - evaluations_before;
-  ambulo__run_nlopt(run, result, d->message, ambulo__seconds_now() - begin - inside);
+  ambulo__run_nlopt(run, result, ambulo__seconds_now() - begin - inside);
+  d->message = run->nlopt.result_name;
   return result == NLOPT_OUT_OF_MEMORY ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 

@@ -4,9 +4,8 @@
 #include "method/augmented.h"
 #include "method/model_step.h"
 #include "method/parameters.h"
-#include "method/polish.h"
-#include "method/restore.h"
-#include "method/retraction.h"
+#include "method/pipeline.h"
+#include "method/equalities.h"
 #include "problem/callbacks.h"
 
 #include <math.h>
@@ -72,6 +71,7 @@ static ambulo_status create_measured(ambulo__engine *e) {
   m->border = ambulo__pool_doubles(&e->pool, (size_t)s->borders);
   m->excess = ambulo__pool_doubles(&e->pool, (size_t)s->inequalities);
   m->row_weight = ambulo__pool_doubles(&e->pool, (size_t)s->problem->rows);
+  e->polished = ambulo__pool_doubles(&e->pool, (size_t)s->n);
   return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -98,8 +98,6 @@ static ambulo_status create_parts(ambulo__engine *e) {
   if (!status) status = ambulo__quadratic_create(e);
   if (!status) status = ambulo__retraction_create(e);
   if (!status) status = ambulo__held_create(e);
-  if (!status) status = ambulo__restore_create(e);
-  if (!status) status = ambulo__polish_create(e);
   if (status) return status;
   return ambulo__trial_create(s->n, s->inequalities, s->equalities, &e->pool, &e->reached);
 }

@@ -19,9 +19,8 @@
 
 #include "linear/kkt.h"
 #include "method/metric.h"
-#include "method/rows_split.h"
+#include "method/row_roles.h"
 #include "method/run.h"
-#include "method/trial.h"
 
 /* The same from the first iteration to the last. */
 typedef struct ambulo__setup {
@@ -64,6 +63,25 @@ typedef struct ambulo__measured {
   double *row_weight;        /* [rows of the problem]: of the last gradient */
 } ambulo__measured;
 
+/* A point of the augmented Lagrangian and what belongs to it. */
+typedef struct ambulo__trial {
+  int n, inequalities, equalities;
+  double value;                /* augmented Lagrangian; not < HUGE_VAL: none */
+  double objective;            /* f, scaled */
+  double violation;            /* worst inequality, relative to its size */
+  double gradient_norm;        /* of the reduced, whitened gradient; < 0: not computed */
+  double *x;                   /* [n] */
+  double *excess;              /* [inequalities] */
+  double *multiplier;          /* [inequalities]: max(0, lambda + rho v) */
+  double *equality_multiplier; /* [equalities]: once the gradient is there */
+} ambulo__trial;
+
+/* A point without a value. E_MEMORY. (point.c) */
+ambulo_status ambulo__trial_create(int n, int inequalities, int equalities, ambulo__pool *pool,
+                                   ambulo__trial *trial);
+/* Between two of one size. */
+void ambulo__trial_copy(const ambulo__trial *from, ambulo__trial *to);
+
 typedef struct ambulo__engine {
   const ambulo__setup *setup;
   ambulo_workspace *workspace;
@@ -72,12 +90,11 @@ typedef struct ambulo__engine {
   ambulo__iterate iterate;
   ambulo__linearized linearized;
   ambulo__measured measured;
-  ambulo__trial reached;                     /* value HUGE_VAL: nowhere yet */
-  struct ambulo__held *held;                 /* augmented.h */
-  struct ambulo__quadratic *quadratic;       /* model_step.h */
-  struct ambulo__retraction *retraction;     /* retraction.h */
-  struct ambulo__restore_scratch *restoring; /* restore.h */
-  struct ambulo__polish_scratch *polishing;  /* polish.h */
+  ambulo__trial reached;                 /* value HUGE_VAL: nowhere yet */
+  struct ambulo__held *held;             /* augmented.h */
+  struct ambulo__quadratic *quadratic;   /* model_step.h */
+  struct ambulo__retraction *retraction; /* retraction.h */
+  double *polished;                      /* [n]: the point so far, of stopping.c */
 } ambulo__engine;
 
 /* Classifies rows, finds the objective's scale, allocates. Both are found at zero, so that they are

@@ -11,8 +11,9 @@
  * much they bend the motion.
  */
 #include "method/metric.h"
-#include "method/parameters.h"
+
 #include "base/arithmetic.h"
+#include "method/parameters.h"
 #include "problem/callbacks.h"
 
 #include <math.h>
@@ -55,14 +56,6 @@ static int is_curved(const ambulo_problem *p, int channel) {
   return 0;
 }
 
-int ambulo__metric_is_composite(const ambulo_term *term) {
-  return !ambulo__is_user_term(term) && !ambulo__term_is_simple(term) && term->weight > 0.0;
-}
-
-int ambulo__metric_is_users(const ambulo_term *term) {
-  return ambulo__is_user_term(term) && term->weight > 0.0;
-}
-
 ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
                                     ambulo__metric *metric) {
   int candidates = 4 * p->coordinates; /* q, qd, qdd, tau */
@@ -100,22 +93,6 @@ ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
   metric->joint = ambulo__pool_blocks(pool, (size_t)p->coordinates, sizeof *metric->joint);
   if (ambulo__channel_slopes_create(p, pool, &metric->slopes)) return AMBULO_E_MEMORY;
   return ambulo__spread_create(pool, p->coordinates, &metric->spread);
-}
-
-double ambulo__metric_curvature(const ambulo_workspace *workspace, int node, int channel) {
-  const ambulo_problem *p = workspace->problem;
-  double y = workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
-  int i = channel % p->coordinates;
-  double sum = 0.0;
-  for (int t = 0; t < p->definition.term_count; t++) {
-    const ambulo_term *term = &p->definition.terms[t];
-    if (!ambulo__term_is_simple(term)) continue;
-    if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
-    double scale = ambulo__term_scale(term, i);
-    double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
-    sum += term->weight * scale * scale * ambulo__term_residual_from(term, 0.0, u).curvature;
-  }
-  return sum * p->quadrature[node];
 }
 
 /* the place of a row of a node, zero */

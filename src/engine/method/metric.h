@@ -11,8 +11,58 @@
 #define AMBULO_METHOD_METRIC_H
 
 #include "linear/band.h"
-#include "method/channel_slopes.h"
-#include "method/joint_squares.h"
+#include "problem/nlp.h"
+
+/* Slopes of channels at a node and the next, each found once.
+ *
+ * Terms of the objective look at the same torques and forces: a torque counts as a share of the
+ * strength, in the power and in the rate on either side of the node. Nodes are taken in turn; what
+ * was asked for of the next one is still there when it has become the node.
+ */
+typedef struct ambulo__channel_slopes {
+  const ambulo_problem *problem;
+  int slots, entries;
+  int *kept;     /* [2][slots]: the node, plus one, whose slopes stand there; 0: none */
+  double *value; /* [2][slots][3 d] */
+  double *other; /* [3 d]: of channels that are not kept */
+} ambulo__channel_slopes;
+
+/* E_MEMORY. */
+ambulo_status ambulo__channel_slopes_create(const ambulo_problem *problem, ambulo__pool *pool,
+                                            ambulo__channel_slopes *s);
+/* Forgets all: another point. */
+void ambulo__channel_slopes_clear(ambulo__channel_slopes *s);
+/* [3 d] by the node's q, qd and qdd (ambulo__evaluate_jacobian); until the next call, or of torques
+ * and forces on contacts until the node after the next is asked for. */
+const double *ambulo__channel_slopes_of(ambulo__channel_slopes *s,
+                                        const ambulo_workspace *workspace, int node, int channel);
+
+/* The squares of one coordinate at one node, made few.
+ *
+ * Residuals of a coordinate's torque and motion, linearized (strength, mechanical power, rest
+ * postures, ...), are r_j = a_j tau + m_j . (q, qd, qdd). Of their sum of squares, each times its
+ * curvature whose root is in a_j and m_j, what is needed is the quadratic form alone. Turning two
+ * of them by the angle whose tangent is a_2 / a_1 leaves the sum as it is, and tau in one of them:
+ *
+ *     r_1' = c r_1 + s r_2 = |(a_1, a_2)| tau + ...,   r_2' = c r_2 - s r_1 = (c m_2 - s m_1) .
+ * (...)
+ *
+ * So however many there are, one square with the torque is left, whose gradient is as long as the
+ * node's window, and a form of q, qd and qdd, which depend on the control points of the coordinate
+ * alone. A turn cancels nothing: the squares that are left are sums of what was there.
+ *
+ * (tau * torque + motion . (q, qd, qdd))^2 + the form of q, qd and qdd with the lower triangle
+ * `light`, row by row; all zero: no square. */
+typedef struct ambulo__joint_squares {
+  double tau, motion[3], light[6];
+} ambulo__joint_squares;
+
+/* Adds (tau * torque + motion . (q, qd, qdd))^2. */
+void ambulo__joint_squares_add(ambulo__joint_squares *s, double tau, const double motion[3]);
+/* Lower triangle of the form `light` by the control points, row by row: form [span (span + 1) / 2].
+ * 0: there is none. */
+int ambulo__joint_squares_light(const ambulo__joint_squares *s, const ambulo__basis_point *point,
+                                double *form);
 
 typedef struct ambulo__metric {
   const ambulo_problem *problem;

@@ -2,6 +2,7 @@
 #include "method/mirror.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* of the first step, and of the point that it leads to: what may be rounding. Over all shipped
@@ -79,4 +80,23 @@ int ambulo__mirror_agrees(unsigned n, const double *from, const double *to,
     place += to[j] * to[j];
   }
   return sqrt(missed) <= first_step * sqrt(size) + rounding * sqrt(place);
+}
+
+/* ------------------------------------------------------------------------- memory */
+
+/* glibc keeps freed blocks of up to 1032 bytes for requests of their own size class; larger ones
+ * are cut up for whatever comes next. So every block asked for here is larger than that. */
+enum { BLOCKS = 4 };
+static const size_t smallest = 4096; /* bytes: more than NLopt's options, and than is cached */
+
+int ambulo__nlopt_can_copy(unsigned n) {
+  void *block[BLOCKS];
+  int all = 1;
+  for (int i = 0; i < BLOCKS; i++) {
+    size_t size = (size_t)n * sizeof(double) + smallest;
+    block[i] = malloc(i == 0 ? smallest : size);
+    all = all && block[i];
+  }
+  for (int i = 0; i < BLOCKS; i++) free(block[i]);
+  return all;
 }

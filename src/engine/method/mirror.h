@@ -57,4 +57,10 @@ int ambulo__mirror_pool(const ambulo__mirror *mirror, double *row, unsigned n,
  * gradient, but for rounding. */
 int ambulo__mirror_agrees(unsigned n, const double *from, const double *to, const double *gradient);
 
+/* nlopt_set_local_optimizer copies its argument (nlopt_copy) into one small block and three of n
+ * doubles without looking at what malloc returns for them: without memory the process dies. 1 when
+ * malloc has all four at once right now; what this function took is free again when it returns,
+ * and the copy finds it. Asked right before each such call. */
+int ambulo__nlopt_can_copy(unsigned n);
+
 #endif

@@ -26,7 +26,7 @@
  * felt before they are hit, which is what plain Gauss-Newton steps lack.
  */
 #include "method/model_step.h"
-#include "method/engine_point.h"
+#include "method/point.h"
 #include "method/parameters.h"
 #include "base/arithmetic.h"
 

@@ -2,10 +2,19 @@
 #ifndef AMBULO_METHOD_RUN_H
 #define AMBULO_METHOD_RUN_H
 
-#include "problem/callbacks.h"
 #include "ambulo/solve.h"
 #include "linear/sparse_rows.h"
-#include "method/history.h"
+#include "problem/callbacks.h"
+
+/* What a solve passed through, in bounded memory. */
+enum { AMBULO__HISTORY_MOST = 256 };
+
+typedef struct ambulo__history {
+  ambulo_history shown; /* its items are those below; `every` as there */
+  int number;           /* of the last iteration on its grid, from 0 on */
+  int passing;          /* 1: the last item stands only until its grid has a next one */
+  ambulo_iteration item[AMBULO__HISTORY_MOST];
+} ambulo__history;
 
 typedef struct ambulo__run {
   const ambulo_options *options;
@@ -45,12 +54,19 @@ ambulo__poll ambulo__run_poller(ambulo__run *run);
  * takes to say what it found, a tenth of the time it had, and at least a quarter of a second. */
 int ambulo__run_late(const ambulo__run *run);
 /* One call of NLopt: what it returned, its own time in s. */
-void ambulo__run_nlopt(ambulo__run *run, int result, const char *name, double seconds);
+void ambulo__run_nlopt(ambulo__run *run, int result, double seconds);
+/* NLopt's name of its result, without the prefix. */
+const char *ambulo__nlopt_name(int result);
 /* A method ends for a reason of its own; a limit that stopped the run stays. */
 void ambulo__run_end(ambulo__run *run, ambulo_ending ending);
 /* Something was not finite at a point that is given up. */
 void ambulo__run_fault(ambulo__run *run, const ambulo_fault *fault);
 /* A method has found a point: what was not finite on the way did not keep it from that. */
 void ambulo__run_forgive(ambulo__run *run);
+
+/* Empty. NULL: no memory. */
+ambulo__history *ambulo__history_create(const ambulo_allocator *allocator);
+/* `history` may be NULL: nothing is kept. */
+void ambulo__history_add(ambulo__history *history, const ambulo_iteration *iteration);
 
 #endif

@@ -21,9 +21,9 @@
  */
 #include "solver/audit.h"
 #include "base/arithmetic.h"
-#include "method/engine_point.h"
+#include "method/point.h"
 #include "method/model_step.h"
-#include "method/presolve_rank.h"
+#include "method/row_roles.h"
 #include "solver/verdict.h"
 
 #include <math.h>

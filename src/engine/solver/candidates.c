@@ -1,7 +1,7 @@
 /* solver/candidates.c - see candidates.h. */
 #include "solver/candidates.h"
 #include "base/arithmetic.h"
-#include "method/engine_point.h"
+#include "method/point.h"
 
 #include <math.h>
 #include <string.h>

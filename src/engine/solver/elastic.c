@@ -19,7 +19,7 @@
 #include "solver/elastic.h"
 #include "base/arithmetic.h"
 #include "method/metric.h"
-#include "method/rows_split.h"
+#include "method/row_roles.h"
 
 #include <math.h>
 #include <string.h>

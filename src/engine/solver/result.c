@@ -1,6 +1,6 @@
 /* solver/result.c - memory of a result and access to it. */
 #include "solver/result.h"
-#include "method/history.h"
+#include "method/run.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,7 @@ struct ambulo__explanation;  /* solver/explain.h */
 struct ambulo__dense_report; /* solver/dense_audit.h */
 struct ambulo__outcome;      /* solver/free_outcome.h */
 struct ambulo__valleys;      /* solver/starts.h */
-struct ambulo__history;      /* method/history.h */
+struct ambulo__history;      /* method/run.h */
 
 struct ambulo_result {
   ambulo_allocator allocator;

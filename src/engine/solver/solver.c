@@ -17,7 +17,6 @@
 #include "method/direct.h"
 #include "method/pipeline.h"
 #include "method/refine.h"
-#include "method/smooth.h"
 #include "problem/nlp.h"
 
 #include <math.h>

@@ -1,4 +1,107 @@
-/* method/retraction.c - points on the equalities' surface, and gradients along it.
+/* method/equalities.c - from anywhere to a point that satisfies the equalities.
+ *
+ * Newton's method for h(x) = 0, C x = b with the step of least length in the metric
+ * H_GN + 10 mu I:
+ *
+ *     minimize d' H d / 2   subject to   J d = -h,   C d = b - C x
+ *
+ * damped so that no angle changes by more than 0.3 rad at once. The metric makes the motion
+ * that it arrives at a smooth one: a step that bends the motion costs torque.
+ */
+#include "method/equalities.h"
+
+#include "method/parameters.h"
+#include "method/point.h"
+
+#include <math.h>
+#include <string.h>
+
+ambulo_status ambulo__retraction_create(ambulo__engine *e) {
+  ambulo__pool *pool = &e->pool;
+  int n = e->setup->n, equalities = e->setup->equalities;
+  ambulo__retraction *r = ambulo__pool_blocks(pool, 1, sizeof *r);
+  if (!r) return AMBULO_E_MEMORY;
+  e->retraction = r;
+  r->tolerance =
+      AMBULO__RETRACTION_SHARE * fmin(AMBULO__RESTORED, e->run->options->feasibility_tolerance);
+  r->adjoint_tolerance = ambulo__engine_roughness(e);
+  double **vectors[] = {&r->step, &r->gradient, &r->previous, &r->previous_gradient, &r->nearest};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    *vectors[i] = ambulo__pool_doubles(pool, (size_t)n);
+  r->along = ambulo__pool_doubles(pool, (size_t)equalities);
+  r->force = ambulo__pool_doubles(pool, (size_t)equalities);
+  r->balanced = ambulo__pool_doubles(pool, (size_t)equalities);
+  r->border = ambulo__pool_doubles(pool, (size_t)e->setup->borders);
+  ambulo_status status = ambulo__mixing_create(pool, n, equalities, &r->points);
+  if (!status) status = ambulo__mixing_create(pool, equalities, equalities, &r->adjoint);
+  return pool->failed ? AMBULO_E_MEMORY : status;
+}
+
+/* the step of least length from the point held; 1 when it cannot be had */
+static int direction(ambulo__engine *e, double *d) {
+  ambulo__linearized *at = &e->linearized;
+  ambulo__retraction *r = e->retraction;
+  int equalities = e->setup->equalities, borders = e->setup->borders;
+  double begin = ambulo__seconds_now();
+  if (ambulo__sparse_rows_fill(&at->rows.equality, e->workspace, 0)) {
+    ambulo__run_fault(e->run, &e->workspace->fault);
+    return 1;
+  }
+  int failed = ambulo__engine_fill_metric(e, AMBULO__RESTORE_DAMPING * e->iterate.mu);
+  if (!failed) {
+    failed = ambulo__kkt_factor(&at->kkt, &at->base);
+    e->run->breakdowns += failed;
+  }
+  if (!failed) {
+    for (int i = 0; i < equalities; i++) r->force[i] = -e->measured.equality[i];
+    for (int i = 0; i < borders; i++) r->border[i] = -e->measured.border[i];
+    memset(r->along, 0, (size_t)equalities * sizeof *r->along);
+    ambulo__kkt_solve(&at->kkt, NULL, r->force, r->border, d, r->along, NULL);
+  }
+  e->run->seconds_linear += ambulo__seconds_now() - begin;
+  return failed;
+}
+
+/* x + t d with the largest t, halved while the point is not finite; 0 on success */
+static int advance(ambulo__engine *e, const double *d, double *x) {
+  int n = e->setup->n;
+  double *from = e->iterate.x, t = ambulo__step_limit(e->setup, d, AMBULO__RESTORE_STEP_CAP);
+  memcpy(from, x, (size_t)n * sizeof *x);
+  for (int trial = 0; trial < AMBULO__INNER_STEPS; trial++) {
+    for (int j = 0; j < n; j++) x[j] = from[j] + t * d[j];
+    if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return 0;
+    ambulo__run_fault(e->run, &e->workspace->fault);
+    t *= 0.5;
+  }
+  memcpy(x, from, (size_t)n * sizeof *x);
+  return 1;
+}
+
+/* (P.4) Newton steps of least length onto the equalities */
+ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
+  ambulo__retraction *r = e->retraction;
+  size_t bytes = (size_t)e->setup->n * sizeof *x;
+  double least = HUGE_VAL;
+  *error = HUGE_VAL;
+  for (int k = 0; k < AMBULO__RESTORE_STEPS; k++) {
+    ambulo_status status = ambulo__evaluate_jacobian(e->workspace, x);
+    if (status) return status;
+    *error = ambulo__engine_equality_error(e);
+    if (*error < least) {
+      least = *error;
+      memcpy(r->nearest, x, bytes);
+    }
+    if (*error < AMBULO__RESTORE_TARGET || ambulo__run_over(e->run)) break;
+    if (direction(e, r->step) || advance(e, r->step, x)) break;
+  }
+  if (least < *error) {
+    memcpy(x, r->nearest, bytes);
+    *error = least;
+  }
+  return AMBULO_OK;
+}
+
+/* -------------------------------------------------------- points on the surface
  *
  * Around the iterate x_k with metric H, gradients J_k of the local equalities h and the border
  * rows C, a point y_0 is carried to
@@ -25,33 +128,6 @@
  * next one will be smaller as |J_k z| was, which the pass has measured already: this product is
  * what is asked to be small.
  */
-#include "method/retraction.h"
-#include "method/engine_point.h"
-#include "method/parameters.h"
-
-#include <math.h>
-#include <string.h>
-
-ambulo_status ambulo__retraction_create(ambulo__engine *e) {
-  ambulo__pool *pool = &e->pool;
-  int n = e->setup->n, equalities = e->setup->equalities;
-  ambulo__retraction *r = ambulo__pool_blocks(pool, 1, sizeof *r);
-  if (!r) return AMBULO_E_MEMORY;
-  e->retraction = r;
-  r->tolerance =
-      AMBULO__RETRACTION_SHARE * fmin(AMBULO__RESTORED, e->run->options->feasibility_tolerance);
-  r->adjoint_tolerance = ambulo__engine_roughness(e);
-  double **vectors[] = {&r->step, &r->gradient, &r->previous, &r->previous_gradient};
-  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-    *vectors[i] = ambulo__pool_doubles(pool, (size_t)n);
-  r->along = ambulo__pool_doubles(pool, (size_t)equalities);
-  r->force = ambulo__pool_doubles(pool, (size_t)equalities);
-  r->balanced = ambulo__pool_doubles(pool, (size_t)equalities);
-  r->border = ambulo__pool_doubles(pool, (size_t)e->setup->borders);
-  ambulo_status status = ambulo__mixing_create(pool, n, equalities, &r->points);
-  if (!status) status = ambulo__mixing_create(pool, equalities, equalities, &r->adjoint);
-  return pool->failed ? AMBULO_E_MEMORY : status;
-}
 
 static void chord(ambulo__engine *e, double *y) {
   ambulo__retraction *r = e->retraction;

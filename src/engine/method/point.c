@@ -1,5 +1,6 @@
-/* method/engine_point.c - see engine_point.h. */
-#include "method/engine_point.h"
+/* method/point.c - see engine_point.h. */
+#include "method/point.h"
+
 #include "base/arithmetic.h"
 #include "method/parameters.h"
 #include "problem/nonfinite.h"
@@ -101,4 +102,30 @@ double ambulo__step_limit(const ambulo__setup *s, const double *step, double par
   double largest = 0.0;
   for (int j = 0; j < s->n; j++) largest = ambulo__worse(largest, fabs(step[j]) / s->cap[j % d]);
   return largest <= part ? 1.0 : part / largest;
+}
+
+ambulo_status ambulo__trial_create(int n, int inequalities, int equalities, ambulo__pool *pool,
+                                   ambulo__trial *trial) {
+  *trial = (ambulo__trial){.n = n,
+                           .inequalities = inequalities,
+                           .equalities = equalities,
+                           .value = HUGE_VAL,
+                           .x = ambulo__pool_doubles(pool, (size_t)n),
+                           .excess = ambulo__pool_doubles(pool, (size_t)inequalities),
+                           .multiplier = ambulo__pool_doubles(pool, (size_t)inequalities),
+                           .equality_multiplier = ambulo__pool_doubles(pool, (size_t)equalities)};
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+void ambulo__trial_copy(const ambulo__trial *from, ambulo__trial *to) {
+  size_t rows = (size_t)from->inequalities * sizeof *to->excess;
+  to->value = from->value;
+  to->objective = from->objective;
+  to->violation = from->violation;
+  to->gradient_norm = from->gradient_norm;
+  memcpy(to->x, from->x, (size_t)from->n * sizeof *to->x);
+  memcpy(to->excess, from->excess, rows);
+  memcpy(to->multiplier, from->multiplier, rows);
+  memcpy(to->equality_multiplier, from->equality_multiplier,
+         (size_t)from->equalities * sizeof *to->equality_multiplier);
 }

@@ -1,4 +1,4 @@
-/* method/rows_split.h - the roles that rows play in the solver.
+/* method/row_roles.h - the roles that rows play in the solver.
  *
  *   equality    independent equalities inside one node's window: local
  *   border      independent equalities across nodes (periodic, mirrored ends): linear
@@ -11,16 +11,24 @@
  *               makes rows of different unit comparable; rows of the caller: the length of their
  *               gradient at the start
  */
-#ifndef AMBULO_METHOD_ROWS_SPLIT_H
-#define AMBULO_METHOD_ROWS_SPLIT_H
+#ifndef AMBULO_METHOD_ROW_ROLES_H
+#define AMBULO_METHOD_ROW_ROLES_H
 
-#include "method/presolve_rank.h"
 #include "linear/sparse_rows.h"
+#include "method/run.h"
+#include "problem/nlp.h"
+
+/* Which equality rows are independent. */
+typedef enum ambulo__row_rank {
+  AMBULO__ROW_INDEPENDENT,
+  AMBULO__ROW_DEPENDENT,    /* follows from the rows before it */
+  AMBULO__ROW_CONTRADICTORY /* its gradient follows from theirs, its value does not */
+} ambulo__row_rank;
 
 typedef struct ambulo__rows_split {
   ambulo__sparse_rows equality, border, inequality;
   double *unit; /* [inequality.count]: the sizes above */
-  double *size; /* what each is divided by: the same, or what balance.h makes of it */
+  double *size; /* what each is divided by: the same, or what ambulo__balance_rows makes of it */
   int *rank;    /* [rows]: ambulo__row_rank */
   int dropped;
   int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */
@@ -37,5 +45,17 @@ int ambulo__rows_contradict(const ambulo__rows_split *rows, int count);
 ambulo_status ambulo__rows_split_create(const ambulo_problem *problem, ambulo_workspace *workspace,
                                         const double *start, ambulo__run *run, ambulo__pool *pool,
                                         ambulo_diagnostics *diagnostics, ambulo__rows_split *out);
+
+/* Sorts the equality rows: rank[rows] (inequalities are left independent). The check is
+ * made at a generic point near `start`. `diagnostics` may be NULL: a warning with name and time for
+ * each contradiction. E_MEMORY; E_LIMIT: the run (may be NULL) was stopped meanwhile. */
+ambulo_status ambulo__presolve_rank(const ambulo_problem *problem, ambulo_workspace *workspace,
+                                    const double *start, ambulo__run *run, ambulo__pool *pool,
+                                    ambulo_diagnostics *diagnostics, int *rank);
+
+/* The same for any set of rows whose gradients are filled and finite, with their values. rank is
+ * indexed by row number of the problem; only rows of the set are touched. */
+ambulo_status ambulo__rank_sort(const ambulo__sparse_rows *rows, const double *value,
+                                ambulo__run *run, ambulo__pool *pool, int *rank);
 
 #endif

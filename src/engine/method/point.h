@@ -1,6 +1,6 @@
-/* method/engine_point.h - what the engine makes of the point that its workspace holds. */
-#ifndef AMBULO_METHOD_ENGINE_POINT_H
-#define AMBULO_METHOD_ENGINE_POINT_H
+/* method/point.h - what the engine makes of the point that its workspace holds. */
+#ifndef AMBULO_METHOD_POINT_H
+#define AMBULO_METHOD_POINT_H
 
 #include "method/engine.h"
 
