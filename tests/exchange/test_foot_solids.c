@@ -143,10 +143,33 @@ static void unreadable(void **state) {
   }
 }
 
+/* lengths of a URDF are whole: a cylinder and a capsule that lie along x */
+static void lengths_of_a_urdf(void **state) {
+#define FOOT(shape)                                                                                \
+  "<robot name='r'><link name='base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' " \
+  "ixy='0' ixz='0' iyz='0'/></inertial></link><link name='foot_r'><inertial><mass value='1'/>"     \
+  "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial><collision>"               \
+  "<origin rpy='0 1.5707963267948966 0'/><geometry><" shape " radius='0.03' length='0.2'/>"        \
+  "</geometry></collision></link><joint name='hip' type='continuous'><parent link='base'/>"        \
+  "<child link='foot_r'/><axis xyz='1 0 0'/></joint></robot>"
+  static const char *const texts[] = {FOOT("cylinder"), FOOT("capsule")};
+  for (int i = 0; i < 2; i++) {
+    import_case c = import_good(state, texts[i]);
+    int heel = ambulo_model_find_point(c.model, "right_heel"),
+        toe = ambulo_model_find_point(c.model, "right_toe");
+    assert_true(heel >= 0 && toe >= 0);
+    const double *from = ambulo_model_point(c.model, heel)->position,
+                 *to = ambulo_model_point(c.model, toe)->position;
+    assert_close(fabs(to[0] - from[0]) + fabs(to[2] - from[2]), 0.2, 1e-9);
+    import_shut(&c);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(each_kind, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(packages, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(lengths_of_a_urdf, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(mujoco, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(shank_above_a_foot, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(unreadable, scratch_open, scratch_close)};

@@ -50,6 +50,10 @@ static void what_the_problem_does_not_take(void **state) {
               ONE("{name: a, keys: [time.duration], scale: linear, step: 1,"
                   " range: [-3, 1]}"),
               "with 'a' at its lower bound the problem cannot be read: ");
+  fit_refused(state,
+              ONE("{name: a, keys: [trajectory.intervals], scale: linear, step: 1,"
+                  " range: [0, 0.5]}"),
+              "with 'a' at its upper bound the problem cannot be read: ");
   fit_refused(
       state,
       FIT_HEAD FIT_PARAMETERS
