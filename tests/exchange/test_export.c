@@ -203,6 +203,29 @@ static void an_archive(void **state) {
   /* still: what is left over is weight less the plate, in the pelvis' axes */
   double rest = element(bytes, length, "tau.npy", "(5, 12, )", 3 * 12 + 1);
   assert_close(rest, 9.81 * ambulo_model_mass(model) - 700.0, 1e-9);
+  /* the same moment is left over in all rows, once what the loads do about the root is added;
+   * R' turns by -90 degrees about x */
+  double moment[2][3];
+  for (size_t r = 0; r < 2; r++) {
+    size_t row = 3 * r;
+    for (size_t i = 0; i < 3; i++)
+      moment[r][i] = element(bytes, length, "tau.npy", "(5, 12, )", row * 12 + 3 + i);
+    for (size_t load = 0; load < 2; load++) {
+      double w[6], arm[3], turn[3];
+      for (size_t i = 0; i < 6; i++)
+        w[i] = element(bytes, length, "contact_wrench.npy", "(5, 2, 6, )", row * 12 + 6 * load + i);
+      for (size_t i = 0; i < 3; i++)
+        arm[i] =
+            element(bytes, length, "contact_point.npy", "(5, 2, 3, )", row * 6 + 3 * load + i) -
+            turned[i];
+      for (size_t i = 0; i < 3; i++)
+        turn[i] = arm[(i + 1) % 3] * w[(i + 2) % 3] - arm[(i + 2) % 3] * w[(i + 1) % 3] + w[3 + i];
+      moment[r][0] += turn[0];
+      moment[r][1] += turn[2];
+      moment[r][2] -= turn[1];
+    }
+  }
+  for (size_t i = 0; i < 3; i++) assert_close(moment[1][i], moment[0][i], 1e-9);
   ambulo_model_free(model);
 }
 

@@ -284,6 +284,27 @@ static void keyframe(void **state) {
   import_shut(&c);
 }
 
+/* turns about left and up, of a body that stands as the world does */
+static void keyframe_of_a_free_body(void **state) {
+  static const struct {
+    const char *turn, *name;
+  } cases[] = {{"0.98877107793604224 0 0.14943813247359922 0", "root_tilt"},
+               {"0.98877107793604224 0.14943813247359922 0 0", "root_list"},
+               {"0.98877107793604224 0 0 0.14943813247359922", "root_rotation"}};
+  static const char *const names[] = {"root_tilt", "root_list", "root_rotation"};
+  for (int i = 0; i < 3; i++) {
+    char text[1024];
+    (void)snprintf(text, sizeof text,
+                   "<mujoco><worldbody><body name='b'>" BODY "<freejoint name='root'/></body>"
+                   "</worldbody><keyframe><key qpos='0 0 0 %s'/></keyframe></mujoco>",
+                   cases[i].turn);
+    import_case c = import_good(state, text);
+    for (int k = 0; k < 3; k++)
+      assert_close(start_of(&c, names[k]), strcmp(names[k], cases[i].name) == 0 ? 0.3 : 0.0, 1e-7);
+    import_shut(&c);
+  }
+}
+
 /* without one, joints stand at their reference */
 static void reference(void **state) {
   import_case c = import_good(state, "<mujoco><worldbody><body name='b'>" BODY
@@ -306,6 +327,7 @@ int main(void) {
       cmocka_unit_test(asked_for),
       cmocka_unit_test(pose_of_a_robot),
       cmocka_unit_test(keyframe),
+      cmocka_unit_test(keyframe_of_a_free_body),
       cmocka_unit_test(reference),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

@@ -46,6 +46,18 @@ static void limits(void **state) {
   import_shut(&c);
 }
 
+/* the joints of a root are free unless an actuator names them */
+static void what_is_driven(void **state) {
+  import_case c = import_good(
+      state, "<mujoco><worldbody><body name='b'>" BODY "<joint name='x' type='slide'/>"
+             "<joint name='turn'/><body name='leg'>" BODY "<joint name='hip'/></body></body>"
+             "</worldbody><actuator><motor joint='hip'/><motor joint='turn'/></actuator></mujoco>");
+  assert_int_equal(named(&c, "x")->actuated, 0);
+  assert_int_equal(named(&c, "turn")->actuated, 1);
+  assert_int_equal(named(&c, "hip")->actuated, 1);
+  import_shut(&c);
+}
+
 static void mass_of(void **state, const char *geom, double mass, double xx, double zz) {
   char text[600];
   (void)snprintf(text, sizeof text, MODEL("<body name='b'><joint/>%s</body>"), geom);
@@ -158,12 +170,10 @@ static void included_files(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(as_mujoco),
-                                     cmocka_unit_test(limits),
-                                     cmocka_unit_test(solids),
-                                     cmocka_unit_test(settings),
-                                     cmocka_unit_test(what_is_as_good_as_none),
-                                     cmocka_unit_test(what_is_wrong),
-                                     cmocka_unit_test(included_files)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(as_mujoco),      cmocka_unit_test(limits),
+      cmocka_unit_test(what_is_driven), cmocka_unit_test(solids),
+      cmocka_unit_test(settings),       cmocka_unit_test(what_is_as_good_as_none),
+      cmocka_unit_test(what_is_wrong),  cmocka_unit_test(included_files)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
