@@ -4,7 +4,6 @@
 #include "base/sized.h"
 #include "exchange/export.h"
 #include "formats/atomic_file.h"
-#include "formats/output_check.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,6 @@
 
 #include "base/sized.h"
 #include "formats/atomic_file.h"
-#include "formats/output_check.h"
 #include "exchange/body_tree.h"
 
 static int options_are_sane(const ambulo_import_options *o) {

@@ -189,7 +189,7 @@ static ambulo_status fill(const ambulo_model *model, const ambulo__motion *table
 /* the file's own columns */
 static ambulo_status read_table(const char *path, ambulo_diagnostics *diagnostics,
                                 ambulo__source *s) {
-  ambulo_status status = ambulo__motion_read_gaps(path, &s->allocator, diagnostics, &s->table);
+  ambulo_status status = ambulo__motion_read(path, 1, &s->allocator, diagnostics, &s->table);
   if (!status && s->table->rows != s->rows) status = AMBULO_E_INTERNAL;
   return status;
 }

@@ -168,7 +168,7 @@ static void print_feet(const ambulo__tree *tree, ambulo__text_buffer *text) {
 
 /* ------------------------------------------------------------------------- whole */
 
-/* Not the mark of tables that are ambulo's own (formats/output_check.h): the text is to be changed
+/* Not the mark of tables that are ambulo's own (formats/atomic_file.h): the text is to be changed
  * by people, and is not written over unasked. */
 static void print_head(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text) {
   ambulo__text_append_format(text, "# A model that ambulo imported from the %s file ",

@@ -7,7 +7,7 @@
  * from Plug-in Gait)
  *
  * A knee that bends with negative angles, as in some models of OpenSim, is turned. */
-#include "formats/motion_columns.h"
+#include "formats/motion_file.h"
 #include "people/compare.h"
 #include "people/force_columns.h"
 
@@ -304,7 +304,7 @@ ambulo_status ambulo__subject_forces(ambulo__subject *s, const char *file, const
                                      double *const onsets[2], int onset_count[2]) {
   ambulo__motion *table = NULL;
   ambulo__force_columns groups = {.groups = NULL};
-  ambulo_status status = ambulo__motion_read_gaps(file, &s->allocator, s->diagnostics, &table);
+  ambulo_status status = ambulo__motion_read(file, 1, &s->allocator, s->diagnostics, &table);
   if (!status)
     status = ambulo__force_columns_find(table, file, &s->allocator, s->diagnostics, &groups);
   if (!status) status = match(&groups, map, s->diagnostics);

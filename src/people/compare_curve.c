@@ -4,7 +4,6 @@
 
 #include "base/text_buffer.h"
 #include "formats/atomic_file.h"
-#include "formats/output_check.h"
 
 #include <math.h>
 #include <string.h>

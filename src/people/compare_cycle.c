@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "formats/file_steps.h"
+#include "formats/atomic_file.h"
 #include "formats/yaml_node.h"
 
 static const char *const feet[] = {"left", "right"};

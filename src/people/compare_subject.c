@@ -112,7 +112,7 @@ static ambulo_status read_motion(ambulo__subject *s, const ambulo_compare_option
   static const char *const forces[AMBULO__SUBJECT_FORCES] = {
       "grf.left.x", "grf.left.y", "grf.left.z", "grf.right.x", "grf.right.y", "grf.right.z"};
   ambulo__motion *motion = NULL;
-  ambulo_status status = ambulo__motion_read(s->file, &s->allocator, s->diagnostics, &motion);
+  ambulo_status status = ambulo__motion_read(s->file, 0, &s->allocator, s->diagnostics, &motion);
   if (!status && motion->rows < 5) {
     ambulo__place place = {.file = s->file};
     status = ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place, NULL,

@@ -364,8 +364,7 @@ ambulo_status ambulo__ground_load_read(const ambulo__load_source *source,
   size_t count = 3 * (size_t)l.rows * (size_t)l.feet;
   ambulo_status status = AMBULO_OK;
   if (!table) {
-    status =
-        ambulo__motion_read_gaps(source->file, &l.allocator, source->doubts->diagnostics, &read);
+    status = ambulo__motion_read(source->file, 1, &l.allocator, source->doubts->diagnostics, &read);
     if (status || !read) return status;
     ambulo__doubt_header(source->doubts, source->file, read);
     table = read;

@@ -42,7 +42,7 @@ typedef struct ambulo__load_source {
  * point (nan, or 0 0 0 where others have one) takes the nearest in time that has one while the
  * force is less than a twentieth of the body weight; beyond that nan is an error, and zeros are
  * doubted. A foot whose points are all missing is `loose`. Errors: those of
- * ambulo__motion_read_gaps, E_SCHEMA, E_ARGUMENT (map), E_MEMORY. Fills *load, which
+ * ambulo__motion_read, E_SCHEMA, E_ARGUMENT (map), E_MEMORY. Fills *load, which
  * ambulo__ground_load_free releases. */
 ambulo_status ambulo__ground_load_read(const ambulo__load_source *source,
                                        const ambulo_allocator *allocator,

@@ -263,8 +263,7 @@ ambulo_status ambulo__hand_load_read(const ambulo__load_source *source,
   reader r = {.source = source, .table = source->table, .load = &l};
   ambulo_status status = AMBULO_OK;
   if (!r.table) {
-    status =
-        ambulo__motion_read_gaps(source->file, &l.allocator, source->doubts->diagnostics, &read);
+    status = ambulo__motion_read(source->file, 1, &l.allocator, source->doubts->diagnostics, &read);
     r.table = read;
   }
   if (!status && r.table) status = fill(&r);

@@ -18,9 +18,7 @@
 
 #include "base/sized.h"
 #include "formats/atomic_file.h"
-#include "formats/file_steps.h"
-#include "formats/output_check.h"
-#include "formats/motion_csv.h"
+#include "formats/motion_write.h"
 #include "model/model.h"
 
 static int is_unit(double unit) {

@@ -6,7 +6,7 @@
  * everything comes from the filtered values. */
 #include "people/inverse.h"
 
-#include "formats/motion_columns.h"
+#include "formats/motion_file.h"
 #include "model/model.h"
 #include "people/motion_fit.h"
 
@@ -241,7 +241,7 @@ static ambulo_status filter(const ambulo__inverse *v) {
 
 ambulo_status ambulo__inverse_read(ambulo__inverse *v) {
   ambulo_status status =
-      ambulo__motion_read(v->file, &v->allocator, v->doubts.diagnostics, &v->given);
+      ambulo__motion_read(v->file, 0, &v->allocator, v->doubts.diagnostics, &v->given);
   if (status) return status;
   v->rows = v->given->rows;
   ambulo__doubt_header(&v->doubts, v->file, v->given);

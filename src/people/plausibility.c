@@ -1,7 +1,7 @@
 /* people/plausibility.c - doubts about a motion and its forces (plausibility.h). */
 #include "people/inverse.h"
 
-#include "formats/motion_units.h"
+#include "formats/motion_file.h"
 #include "model/model.h"
 
 #include <math.h>

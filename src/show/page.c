@@ -5,7 +5,6 @@
 #include "base/sized.h"
 #include "formats/atomic_file.h"
 #include "formats/deflate.h"
-#include "formats/output_check.h"
 #include "formats/paths.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "ambulo/tools/inverse.h"
 #include "ambulo/tools/load.h"
 #include "ambulo/tools/report.h"
-#include "formats/file_steps.h"
+#include "formats/atomic_file.h"
 #include "formats/motion_file.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"

@@ -6,7 +6,7 @@
 #include "base/sized.h"
 #include "contact/effector.h"
 #include "formats/atomic_file.h"
-#include "formats/motion_csv.h"
+#include "formats/motion_write.h"
 #include "model/check.h"
 #include "people/stride.h"
 #include "problem/nlp.h"

@@ -5,7 +5,7 @@
 #ifndef AMBULO_STUDY_BATCH_H
 #define AMBULO_STUDY_BATCH_H
 
-#include "formats/sha256.h"
+#include "formats/read_file.h"
 #include "study/study.h"
 
 #include <sys/types.h>

@@ -1,8 +1,7 @@
 /* study/batch_folder.c - whether a run may fill a folder: what stands in it, whose list it has, who
  * else runs in it (batch.h). */
 #include "base/text_buffer.h"
-#include "formats/file_steps.h"
-#include "formats/output_check.h"
+#include "formats/atomic_file.h"
 #include "formats/paths.h"
 #include "study/batch.h"
 

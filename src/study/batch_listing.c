@@ -3,11 +3,8 @@
 #include "base/text_buffer.h"
 #include "formats/atomic_file.h"
 #include "formats/json_text.h"
-#include "formats/file_steps.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
-#include "formats/seal.h"
-#include "formats/sha256.h"
 #include "study/study.h"
 
 #include <errno.h>

@@ -10,9 +10,9 @@
 #endif
 #include "base/machine.h"
 #include "base/sized.h"
-#include "formats/file_steps.h"
+#include "formats/atomic_file.h"
 #include "formats/paths.h"
-#include "formats/text_hash.h"
+#include "formats/read_file.h"
 #include "study/batch.h"
 
 #include <dirent.h>

@@ -7,7 +7,7 @@
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
  * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
 #include "base/machine.h"
-#include "formats/file_steps.h"
+#include "formats/atomic_file.h"
 #include "formats/read_file.h"
 #include "study/batch.h"
 

@@ -10,7 +10,7 @@
  *
  * Who chooses the next cases by the results of the last ones has no list beforehand, and so no
  * places in it: there an id is the hash of what is asked for (ambulo__sweep_append). */
-#include "formats/text_hash.h"
+#include "formats/read_file.h"
 #include "study/study.h"
 
 #include <stdio.h>

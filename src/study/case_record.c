@@ -2,11 +2,9 @@
 #include "ambulo/solve.h"
 #include "base/numtext.h"
 #include "formats/atomic_file.h"
-#include "formats/file_steps.h"
 #include "formats/json_text.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
-#include "formats/seal.h"
 #include "study/batch.h"
 
 #include <dirent.h>

@@ -2,7 +2,6 @@
  */
 #include "formats/paths.h"
 #include "formats/read_file.h"
-#include "formats/text_hash.h"
 #include "study/fit.h"
 
 #include <math.h>

@@ -9,12 +9,9 @@
 #include "base/machine.h"
 #include "base/sized.h"
 #include "formats/atomic_file.h"
-#include "formats/file_steps.h"
 #include "formats/json_text.h"
-#include "formats/output_check.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
-#include "formats/text_hash.h"
 #include "study/batch.h"
 #include "study/fit.h"
 

@@ -7,7 +7,7 @@
 #include "base/diagnostics.h"
 #include "ambulo/tools/load.h"
 #include "base/numtext.h"
-#include "formats/file_steps.h"
+#include "formats/atomic_file.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
 #include "study/fit.h"

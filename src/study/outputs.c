@@ -4,7 +4,7 @@
 
 #include "base/numtext.h"
 #include "formats/read_file.h"
-#include "formats/table_text.h"
+#include "formats/sheet.h"
 
 #include <limits.h>
 #include <math.h>

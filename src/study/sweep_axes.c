@@ -6,12 +6,11 @@
  * strata as there are samples, each used once, in an order shuffled by axis (McKay, Beckman &
  * Conover, Technometrics 21, 1979). */
 #include "base/numtext.h"
-#include "formats/file_steps.h"
+#include "formats/atomic_file.h"
 #include "formats/foreign_format.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
-#include "formats/table_text.h"
-#include "formats/text_hash.h"
+#include "formats/sheet.h"
 #include "study/study.h"
 
 #include <errno.h>

@@ -4,7 +4,6 @@
 #include "ambulo/tools/report.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
-#include "formats/text_hash.h"
 #include "study/study.h"
 
 #include <stdio.h>

@@ -1,10 +1,12 @@
 /* Files appear whole or not at all; nothing temporary is left. */
 #define _GNU_SOURCE
 #include "formats/atomic_file.h"
+#include "formats/paths.h"
 #include "support/fail_io.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <sys/resource.h>
 
@@ -128,6 +130,132 @@ static void every_step_may_fail(void **state) {
 
 #define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_open, scratch_close)
 
+/* The steps under atomic files: names, complete writes, flushing. */
+
+static void siblings_differ_by_process_and_number(void **state) {
+  ambulo_allocator memory = ambulo__allocator_or_default(NULL);
+  (void)state;
+  char want[64], *name = ambulo__sibling_name(&memory, "dir/out", "tmp", 3);
+  snprintf(want, sizeof want, "dir/out.tmp-%ld-3", (long)getpid());
+  assert_string_equal(name, want);
+  free(name);
+}
+
+static void writes_are_complete_or_report_why(void **state) {
+  const char *path = scratch_path(state, "f");
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  int file = open(path, O_WRONLY | O_CREAT, 0600);
+  assert_int_equal(ambulo__fill_file(file, path, "abc", 3, 1, list), AMBULO_OK);
+  assert_file_equal(path, "abc");
+  assert_int_equal(ambulo__fill_file(open("no/such", O_WRONLY), "no/such", "abc", 3, 0, list),
+                   AMBULO_E_IO);
+  assert_message(list, 0, "no/such: error[E_IO]: cannot open for writing: No such file");
+  file = open("/dev/full", O_WRONLY);
+  if (file >= 0) {
+    assert_int_equal(ambulo__fill_file(file, "/dev/full", "abc", 3, 0, list), AMBULO_E_IO);
+    assert_message(list, 1, "cannot write: No space left");
+  }
+  ambulo_diagnostics_free(list);
+}
+
+/* a call of the system that finds no memory is told like one of ours */
+static void no_memory_of_the_system_is_no_fault_of_the_file(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  errno = ENOMEM;
+  assert_int_equal(ambulo__io_error(list, "f", "read the folder"), AMBULO_E_MEMORY);
+  errno = EIO;
+  assert_int_equal(ambulo__io_error(list, "f", "read"), AMBULO_E_IO);
+  assert_int_equal(ambulo_diagnostics_get(list, 0)->status, AMBULO_E_MEMORY);
+  assert_int_equal(ambulo_diagnostics_get(list, 1)->status, AMBULO_E_IO);
+  ambulo_diagnostics_free(list);
+}
+
+static void parents_are_found_for_any_kind_of_path(void **state) {
+  (void)state;
+  ambulo_allocator memory = ambulo__allocator_or_default(NULL);
+  const char *pairs[4][2] = {{"f", "."}, {"/f", "/"}, {"a/b/f", "a/b"}, {"./f", "."}};
+  for (int i = 0; i < 4; i++) {
+    char *parent = ambulo__parent_path(&memory, pairs[i][0]);
+    assert_string_equal(parent, pairs[i][1]);
+    free(parent);
+  }
+}
+
+static void folders_are_flushed(void **state) {
+  assert_int_equal(ambulo__sync_folder(*state), 0);
+  assert_int_equal(ambulo__sync_folder("/"), 0);
+  assert_int_equal(ambulo__sync_folder(scratch_path(state, "missing")), -1);
+  assert_int_equal(errno, ENOENT);
+}
+
+/* Outputs do not replace inputs, nor files of somebody else. */
+
+static const char own[] = "# ambulo motion; SI units\ntime\n0\n";
+
+static void refused(const char *output, const char *input, const char *message) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  const char *inputs[] = {NULL, input};
+  assert_int_equal(ambulo__output_check(output, inputs, 2, 0, list), AMBULO_E_IO);
+  assert_message(list, 0, message);
+  assert_message(list, 0, "--force");
+  assert_int_equal(ambulo__output_check(output, inputs, 2, 1, list), AMBULO_OK);
+  ambulo_diagnostics_free(list);
+}
+
+static void accepted(const char *output) {
+  const char *inputs[] = {"no/such/file"};
+  assert_int_equal(ambulo__output_check(output, inputs, 1, 0, NULL), AMBULO_OK);
+}
+
+static void only_own_files_are_written_over(void **state) {
+  const char *path = scratch_path(state, "out.csv");
+  accepted(path);
+  scratch_write(path, "");
+  accepted(path);
+  scratch_write(path, own);
+  accepted(path);
+  scratch_write(path, "# SI units and radians: time s; q rad or m, qd per s\ntime\n");
+  accepted(path);
+  static const char *const others[] = {"time,x\n", "#", "# ambul", "ambulo: 1\nkind: model\n",
+                                       " # ambulo motion\n"};
+  for (int i = 0; i < 5; i++) {
+    scratch_write(path, others[i]);
+    refused(path, NULL, "ambulo did not write it");
+  }
+  accepted(*state); /* a folder: the writer says what is wrong with it */
+  accepted("/dev/null");
+  accepted("/dev/full");
+}
+
+static void the_input_is_known_by_every_name(void **state) {
+  const char *motion = scratch_path(state, "motion.csv"), *hard = scratch_path(state, "hard.csv");
+  const char *soft = scratch_path(state, "soft.csv"), *folder = scratch_path(state, "folder");
+  scratch_write(motion, own);
+  assert_int_equal(link(motion, hard), 0);
+  assert_int_equal(symlink(motion, soft), 0);
+  assert_int_equal(mkdir(folder, 0700), 0);
+  refused(motion, motion, "is the input");
+  refused(hard, motion, "is the input");
+  refused(soft, motion, motion);
+  refused(motion, soft, "is the input");
+  refused(scratch_path(state, "folder/../motion.csv"), motion, "is the input");
+  accepted(motion);
+}
+
+static void the_start_of_a_file(void **state) {
+  const char *path = scratch_path(state, "file");
+  scratch_write(path, "abcdef");
+  assert_true(ambulo__file_says(path, "abc", 3));
+  assert_false(ambulo__file_says(path, "bcd", 3));
+  assert_true(ambulo__file_says(path, "bcd", 4));
+  assert_true(ambulo__file_says(path, "def", 100));
+  assert_false(ambulo__file_says(path, "defg", 100));
+  assert_false(ambulo__file_says(scratch_path(state, "none"), "abc", 3));
+}
+
+#define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       WITH_SCRATCH(files_are_created_and_replaced),
@@ -138,6 +266,14 @@ int main(void) {
       WITH_SCRATCH(a_failed_write_keeps_the_old_file_and_leaves_nothing),
       WITH_SCRATCH(every_step_may_fail),
       WITH_SCRATCH(stale_temporaries_do_not_block),
-  };
-  return cmocka_run_group_tests_name("base/atomic_file", tests, NULL, NULL);
+      cmocka_unit_test(siblings_differ_by_process_and_number),
+      cmocka_unit_test_setup_teardown(writes_are_complete_or_report_why, scratch_open,
+                                      scratch_close),
+      cmocka_unit_test(no_memory_of_the_system_is_no_fault_of_the_file),
+      cmocka_unit_test(parents_are_found_for_any_kind_of_path),
+      cmocka_unit_test_setup_teardown(folders_are_flushed, scratch_open, scratch_close),
+      SCRATCH_TEST(only_own_files_are_written_over),
+      SCRATCH_TEST(the_input_is_known_by_every_name),
+      SCRATCH_TEST(the_start_of_a_file)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@ static ambulo_status read_columns(const char *file, ambulo_diagnostics *list, am
   ambulo__motion *motion = NULL;
   *s = (ambulo__subject){.diagnostics = list, .file = file};
   s->allocator = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__motion_read(file, NULL, list, &motion), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(file, 0, NULL, list, &motion), AMBULO_OK);
   ambulo_status status = ambulo__subject_columns(s, motion, NULL, 0);
   ambulo__motion_free(motion);
   return status;
@@ -183,7 +183,7 @@ static ambulo_status read_forces(void **state, const char *file, const char *map
   const char *path = subject_plain(state);
   m->subject = (ambulo__subject){.diagnostics = list, .file = path};
   m->subject.allocator = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__motion_read(path, NULL, NULL, &motion), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(path, 0, NULL, NULL, &motion), AMBULO_OK);
   assert_int_equal(ambulo__subject_columns(&m->subject, motion, names, 6), AMBULO_OK);
   ambulo__motion_free(motion);
   return ambulo__subject_forces(&m->subject, file, map, onsets, m->count);

@@ -205,7 +205,7 @@ static void a_published_file_is_read(void **state) {
   if (!shared_data_path("opensim_moco_2dwalking_referenceGRF.sto", path, sizeof path)) skip();
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
-  assert_int_equal(ambulo__motion_read_gaps(path, NULL, NULL, &motion), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(path, 1, NULL, NULL, &motion), AMBULO_OK);
   assert_int_equal(ambulo__force_columns_find(motion, path, NULL, NULL, &c), AMBULO_OK);
   assert_int_equal(c.count, 2);
   for (int i = 0; i < 2; i++) {

@@ -78,7 +78,7 @@ static void comes_back(void **state, const char *file) {
   char *text = NULL;
   options.strict = 1;
   options.ground_height = ambulo_problem_ground_height(problem);
-  assert_int_equal(ambulo__motion_read(path, NULL, NULL, &solved), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(path, 0, NULL, NULL, &solved), AMBULO_OK);
   int loaded = ambulo__motion_column(solved, "grf.left.x") >= 0;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_status status = ambulo_inverse_dynamics_motion(
@@ -140,8 +140,8 @@ static void table_comes_back(void **state, const char *file, int d) {
   ambulo__motion *a = NULL, *b = NULL;
   assert_int_equal(ambulo_inverse_dynamics_motion(model, motion, first, NULL, NULL, NULL, NULL), 0);
   assert_int_equal(ambulo_inverse_dynamics_motion(model, first, second, NULL, NULL, NULL, NULL), 0);
-  assert_int_equal(ambulo__motion_read(first, NULL, NULL, &a), AMBULO_OK);
-  assert_int_equal(ambulo__motion_read(second, NULL, NULL, &b), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(first, 0, NULL, NULL, &a), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(second, 0, NULL, NULL, &b), AMBULO_OK);
   assert_true(difference(a, b, "tau.", d) < 1e-9);
   assert_true(difference(a, b, "power.", d) < 1e-8);
   assert_true(difference(a, b, "wrench.", 6) < 1e-9);

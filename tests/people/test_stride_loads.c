@@ -1,7 +1,7 @@
 /* Forces on the feet in a mirrored stride: models/walk_normal.yaml at a gentle made-up point. */
 #include "base/text_buffer.h"
 #include "ambulo/tools/load.h"
-#include "formats/motion_csv.h"
+#include "formats/motion_write.h"
 #include "people/stride.h"
 #include "people/waving_stride.h"
 #include "support/test.h"

@@ -2,7 +2,7 @@
 #include "mechanics/kernels.h"
 #include "ambulo/ambulo.h"
 #include "ambulo/tools/tools.h"
-#include "formats/motion_csv.h"
+#include "formats/motion_write.h"
 #include "people/stride.h"
 #include "people/stride_measures.h"
 #include "show/summary_json.h"

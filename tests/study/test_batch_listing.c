@@ -1,6 +1,5 @@
 /* A batch folder's own description: read back, and refused when it is damaged. */
-#include "formats/seal.h"
-#include "formats/sha256.h"
+#include "formats/read_file.h"
 #include "study/study.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"

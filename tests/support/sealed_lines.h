@@ -3,7 +3,7 @@
 #ifndef AMBULO_TESTS_SEALED_LINES_H
 #define AMBULO_TESTS_SEALED_LINES_H
 
-#include "formats/seal.h"
+#include "formats/read_file.h"
 #include "support/test.h"
 
 /* The text with the value of line `line` (0: "{") replaced; buffer->data is NULL where that line

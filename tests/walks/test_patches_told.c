@@ -1,5 +1,5 @@
 /* Patches in whole problems: what strides, tables, and the look between the nodes say of them. */
-#include "formats/motion_csv.h"
+#include "formats/motion_write.h"
 #include "solver/dense.h"
 #include "people/stride_measures.h"
 #include "people/stride.h"

@@ -6,7 +6,7 @@
  */
 #include "definitions/problem_free.h"
 
-#include "formats/text_hash.h"
+#include "formats/read_file.h"
 #include "solver/free_search.h"
 
 #include <math.h>

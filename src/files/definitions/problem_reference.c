@@ -7,8 +7,7 @@
  */
 #include "contact/phases.h"
 #include "definitions/problem_reader.h"
-#include "formats/motion_columns.h"
-#include "formats/motion_units.h"
+#include "formats/motion_file.h"
 
 #include <math.h>
 
@@ -131,7 +130,7 @@ static const double *read_motion(ambulo__problem_reader *reader, const ambulo__y
   if (!path) return NULL;
   ambulo__motion *motion = NULL;
   ambulo_status status =
-      ambulo__motion_read(path, &reader->allocator, reader->diagnostics, &motion);
+      ambulo__motion_read(path, 0, &reader->allocator, reader->diagnostics, &motion);
   if (status) {
     reader->failure = status;
     (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);

@@ -1,29 +1,79 @@
 /* formats/atomic_file.c - temporary name, write, fsync, close, rename, fsync of the folder. */
 #include "formats/atomic_file.h"
-#include "formats/file_steps.h"
+
+#include "formats/paths.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define NAME_ATTEMPTS 100
+/* ----------------------------------------------------------------------- steps */
 
-/* devices and FIFOs: no temporary, and nothing to flush */
-static ambulo_status write_directly(const char *path, const char *data, size_t length,
-                                    ambulo_diagnostics *diagnostics) {
-  int file = open(path, O_WRONLY | O_CLOEXEC);
-  if (file < 0) return ambulo__io_error(diagnostics, path, "open for writing");
+ambulo_status ambulo__io_error(ambulo_diagnostics *diagnostics, const char *path,
+                               const char *action) {
+  ambulo__place place = {.file = path};
+  int reason = errno;
+  return ambulo__error(diagnostics, reason == ENOMEM ? AMBULO_E_MEMORY : AMBULO_E_IO, place, NULL,
+                       "cannot %s: %s", action, strerror(reason));
+}
+
+ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const char *path) {
+  ambulo__place place = {.file = path};
+  return ambulo__error(diagnostics, AMBULO_E_MEMORY, place, NULL, "out of memory");
+}
+
+ambulo_status ambulo__expect_path(const char *path, const char *what,
+                                  ambulo_diagnostics *diagnostics) {
+  if (!path || path[0]) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                       "the name of the %s is empty; expected a path", what);
+}
+
+/* write(2) until all is out; 0, or -1 with errno */
+static int write_all(int file, const char *data, size_t length) {
+  while (length > 0) {
+    ssize_t count = write(file, data, length);
+    if (count < 0 && errno == EINTR) continue;
+    if (count == 0) errno = EIO; /* nothing taken, no reason given: not to be tried for ever */
+    if (count <= 0) return -1;
+    data += count;
+    length -= (size_t)count;
+  }
+  return 0;
+}
+
+ambulo_status ambulo__fill_file(int file, const char *path, const char *data, size_t length,
+                                int flush, ambulo_diagnostics *diagnostics) {
   ambulo_status status = AMBULO_OK;
-  if (ambulo__write_all(file, data, length) != 0) {
+  if (file < 0) return ambulo__io_error(diagnostics, path, "open for writing");
+  if (write_all(file, data, length) != 0) {
     status = ambulo__io_error(diagnostics, path, "write");
+  } else if (flush && fsync(file) != 0) {
+    status = ambulo__io_error(diagnostics, path, "flush to disk");
   }
   if (close(file) != 0 && status == AMBULO_OK) {
     status = ambulo__io_error(diagnostics, path, "close");
   }
   return status;
 }
+
+int ambulo__sync_folder(const char *path) {
+  int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return -1;
+  int result = fsync(folder);
+  int reason = errno;
+  close(folder);
+  if (result != 0 && (reason == EINVAL || reason == ENOTSUP || reason == EROFS)) return 0;
+  errno = reason;
+  return result;
+}
+
+/* ------------------------------------------------------------------- whole files */
+
+#define NAME_ATTEMPTS 100
 
 /* creates the temporary; *name is the caller's, also when -1 is returned */
 static int open_temporary(const char *path, const ambulo_allocator *allocator, char **name) {
@@ -35,20 +85,6 @@ static int open_temporary(const char *path, const ambulo_allocator *allocator, c
     ambulo__free(allocator, *name);
   }
   return -1;
-}
-
-static ambulo_status fill(int file, const char *path, const char *data, size_t length,
-                          ambulo_diagnostics *diagnostics) {
-  ambulo_status status = AMBULO_OK;
-  if (ambulo__write_all(file, data, length) != 0) {
-    status = ambulo__io_error(diagnostics, path, "write");
-  } else if (fsync(file) != 0) {
-    status = ambulo__io_error(diagnostics, path, "flush to disk");
-  }
-  if (close(file) != 0 && status == AMBULO_OK) {
-    status = ambulo__io_error(diagnostics, path, "close");
-  }
-  return status;
 }
 
 /* link, unlike rename, never replaces: of two writers one loses. Where the file system has
@@ -73,7 +109,7 @@ static ambulo_status write_through_temporary(const char *path, const char *data,
   } else if (file < 0) {
     status = ambulo__io_error(diagnostics, path, "create");
   } else {
-    status = fill(file, path, data, length, diagnostics);
+    status = ambulo__fill_file(file, path, data, length, 1, diagnostics);
     if (status == AMBULO_OK && move_into_place(temporary, path, replace) != 0) {
       status = ambulo__io_error(diagnostics, path, "create");
     }
@@ -100,10 +136,61 @@ ambulo_status ambulo__write_file(const char *path, const char *data, size_t leng
       return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
                            "cannot write: a folder of that name exists");
     }
-    if (!S_ISREG(info.st_mode)) return write_directly(path, data, length, diagnostics);
+    /* devices and FIFOs: no temporary, and nothing to flush */
+    if (!S_ISREG(info.st_mode))
+      return ambulo__fill_file(open(path, O_WRONLY | O_CLOEXEC), path, data, length, 0,
+                               diagnostics);
     if (!replace) {
       return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL, "the file exists already");
     }
   }
   return write_through_temporary(path, data, length, replace, &own, diagnostics);
+}
+
+/* -------------------------------------------------- what must not be written over */
+
+enum { MOST = 4096 };
+
+int ambulo__file_says(const char *path, const char *text, size_t within) {
+  char start[MOST + 1];
+  size_t length = 0, wanted = within < MOST ? within : MOST;
+  int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return 0;
+  while (length < wanted) {
+    ssize_t count = read(file, start + length, wanted - length);
+    if (count <= 0) break;
+    length += (size_t)count;
+  }
+  close(file);
+  size_t size = strlen(text);
+  for (size_t at = 0; at + size <= length; at++) {
+    if (memcmp(start + at, text, size) == 0) return 1;
+  }
+  return 0;
+}
+
+/* tables of earlier versions began with their units */
+static int is_own(const char *path) {
+  static const char *const marks[] = {AMBULO__OWN_MARK, "# SI units and radians: time s; q rad"};
+  for (int i = 0; i < 2; i++) {
+    if (ambulo__file_says(path, marks[i], strlen(marks[i]))) return 1;
+  }
+  return 0;
+}
+
+ambulo_status ambulo__output_check(const char *output, const char *const *inputs, int count,
+                                   int force, ambulo_diagnostics *diagnostics) {
+  ambulo__place place = {.file = output};
+  struct stat there, input;
+  static const char hint[] = "give another name, or --force (in C: overwrite)";
+  if (force || stat(output, &there) != 0 || !S_ISREG(there.st_mode)) return AMBULO_OK;
+  for (int i = 0; i < count; i++) {
+    if (!inputs[i] || stat(inputs[i], &input) != 0) continue;
+    if (input.st_dev != there.st_dev || input.st_ino != there.st_ino) continue;
+    return ambulo__error(diagnostics, AMBULO_E_IO, place, hint,
+                         "the output is the input '%s' itself; it is not written over", inputs[i]);
+  }
+  if (there.st_size == 0 || is_own(output)) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_IO, place, hint,
+                       "the file exists, and ambulo did not write it; it is not written over");
 }

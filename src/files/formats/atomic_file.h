@@ -45,4 +45,40 @@ ambulo_status ambulo__folder_commit(ambulo__folder *folder, ambulo_diagnostics *
 /* Removes the temporary folder and frees; accepts NULL. */
 void ambulo__folder_abort(ambulo__folder *folder);
 
+/* First characters of every table that ambulo writes as a single file: how it knows its own. */
+#define AMBULO__OWN_MARK "# ambulo"
+
+/* AMBULO_OK if `output` may be written: nothing is there, an empty file, a device or a pipe, or a
+ * file that ambulo wrote and that is none of inputs[count] (whose entries may be NULL). The same
+ * file counts whatever the path to it: another spelling, a hard or a symbolic link. `force`: a file
+ * is written over all the same. Errors: E_IO. */
+ambulo_status ambulo__output_check(const char *output, const char *const *inputs, int count,
+                                   int force, ambulo_diagnostics *diagnostics);
+
+/* 1 if the file can be read and its first `within` bytes (at most 4096) contain `text`; within =
+ * strlen(text): it begins with it. */
+int ambulo__file_says(const char *path, const char *text, size_t within);
+
+/* ---------------------------------------------------------------- single steps */
+
+/* Reports "cannot <action>: <strerror(errno)>" about a file: E_IO, or E_MEMORY when the system had
+ * none. */
+ambulo_status ambulo__io_error(ambulo_diagnostics *diagnostics, const char *path,
+                               const char *action);
+/* E_MEMORY with a message about a file. */
+ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const char *path);
+
+/* E_ARGUMENT, with a message, for an empty name; `what` it is the name of: "file", "folder". NULL
+ * is for callers who may leave it out. */
+ambulo_status ambulo__expect_path(const char *path, const char *what,
+                                  ambulo_diagnostics *diagnostics);
+
+/* Writes `data` into an open file, which it closes, and flushes it if asked to; file -1: it could
+ * not be opened, and errno says why. Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__fill_file(int file, const char *path, const char *data, size_t length,
+                                int flush, ambulo_diagnostics *diagnostics);
+/* fsync of a folder; 0, or -1 with errno. File systems that cannot flush folders count as
+ * success. */
+int ambulo__sync_folder(const char *path);
+
 #endif

@@ -4,8 +4,7 @@
  * folder steps aside, the new one takes its place, the old one is removed. If the second
  * rename fails the old one is put back. */
 #include "formats/atomic_file.h"
-#include "formats/file_steps.h"
-#include "formats/output_check.h"
+#include "formats/paths.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -62,7 +61,7 @@ static ambulo_status expect_mark(const ambulo__folder *folder, ambulo_diagnostic
   const ambulo__folder_mark *mark = folder->mark;
   ambulo__place place = {.file = folder->path};
   struct stat info;
-  char *path = ambulo__join_path(&folder->allocator, folder->path, mark->file);
+  char *path = ambulo__join_paths(&folder->allocator, folder->path, mark->file, NULL);
   if (!path) return ambulo__io_memory_error(diagnostics, folder->path);
   int found = lstat(path, &info) == 0 && S_ISREG(info.st_mode);
   int ours = found && ambulo__file_says(path, mark->text, 256);
@@ -183,28 +182,16 @@ ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *
   return AMBULO_OK;
 }
 
-static int write_and_flush(const char *path, const char *data, size_t length) {
-  int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return -1;
-  int failed = ambulo__write_all(file, data, length) != 0 || fsync(file) != 0;
-  int reason = errno;
-  if (close(file) != 0 && !failed) return -1;
-  errno = reason;
-  return failed ? -1 : 0;
-}
-
 /* The folder is a temporary as a whole, so its files need none of their own, and its entries are
  * flushed once, by the commit. */
 ambulo_status ambulo__folder_write(ambulo__folder *folder, const char *name, const char *data,
                                    size_t length, ambulo_diagnostics *diagnostics) {
   if (name[0] == '\0' || is_dot(name) || strchr(name, '/')) return AMBULO_E_ARGUMENT;
-  char *path = ambulo__join_path(&folder->allocator, folder->temporary, name);
+  char *path = ambulo__join_paths(&folder->allocator, folder->temporary, name, NULL);
   if (!path) return ambulo__io_memory_error(diagnostics, name);
-  ambulo_status status = AMBULO_OK;
-  if (write_and_flush(path, data, length) != 0) {
-    status = ambulo__io_error(diagnostics, path, "write");
-    (void)unlink(path);
-  }
+  int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  ambulo_status status = ambulo__fill_file(file, path, data, length, 1, diagnostics);
+  if (status) (void)unlink(path);
   ambulo__free(&folder->allocator, path);
   return status;
 }

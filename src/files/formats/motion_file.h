@@ -12,12 +12,14 @@
  * ground that do not exist (columns "zmp.*", "cop.*") are "nan". CRLF, a byte-order mark,
  * empty lines and a missing final newline are accepted.
  *
- * Tables that ambulo writes say in their first line whose motion they hold (motion_csv.h). */
+ * Tables that ambulo writes say in their first line whose motion they hold (motion_write.h). */
 #ifndef AMBULO_FORMATS_MOTION_FILE_H
 #define AMBULO_FORMATS_MOTION_FILE_H
 
+#include "ambulo/model.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
+#include "formats/sheet.h"
 
 #define AMBULO__MOTION_MAX_BYTES ((size_t)64 * 1024 * 1024)
 #define AMBULO__MOTION_MAX_COLUMNS 4096
@@ -48,14 +50,12 @@ ambulo_status ambulo__motion_create(int rows, int columns, const char *const *na
                                     const ambulo_allocator *allocator, ambulo__motion **motion);
 void ambulo__motion_free(ambulo__motion *motion); /* accepts NULL */
 
-/* Errors: E_IO, E_LIMIT (size, columns), E_PARSE (shape of the text), E_SCHEMA (names,
- * numbers, times), E_MEMORY. All faults of a file are reported in one go. */
-ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
+/* gaps 1: any cell below a name may be "nan", as measured forces have gaps. Errors: E_IO, E_LIMIT
+ * (size, columns), E_PARSE (shape of the text), E_SCHEMA (names, numbers, times), E_MEMORY. All
+ * faults of a file are reported in one go. */
+ambulo_status ambulo__motion_read(const char *path, int gaps, const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo__motion **motion);
-/* The same, but any cell below a name may be "nan": measured forces have gaps. */
-ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion);
-/* Both, of a text under that name (table_read.c); gaps: as ambulo__motion_read_gaps. */
+/* The same of a text under that name. */
 ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
                                  ambulo__motion_format format, int gaps,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
@@ -63,11 +63,57 @@ ambulo_status ambulo__table_read(const char *text, size_t length, const char *na
 /* Format that a file name asks for: AUTO when its ending is none of the known. */
 ambulo__motion_format ambulo__motion_format_of(const char *name);
 
-/* Column of a name, or -1; those of coordinates: motion_columns.h. */
+/* Column of a name, or -1; those of coordinates: ambulo__motion_find. */
 int ambulo__motion_column(const ambulo__motion *motion, const char *name);
 
 /* Degrees to radians in the columns with is_angle[column] != 0, if the table is in degrees;
  * in_degrees is cleared. */
 void ambulo__motion_to_radians(ambulo__motion *motion, const unsigned char *is_angle);
+
+/* ------------------------------------------------- lines above the column names */
+
+typedef struct ambulo__table_header {
+  int in_degrees, unit_stated;               /* unit of angles, and whether the file says so */
+  int has_version;                           /* a line version=...: not of SIMM */
+  long long declared_rows, declared_columns; /* -1: not stated */
+  double body_mass, gravity[3];              /* kg, m/s^2; mass NaN: not stated */
+} ambulo__table_header;
+
+ambulo__table_header ambulo__table_header_default(void);
+
+/* Takes in one line: of an STO or MOT header "key = value" (inDegrees, version, nRows or datarows,
+ * nColumns or datacolumns), as SIMM has it "datarows 8", and the sentence "Angles are in degrees.";
+ * of a CSV a comment "# inDegrees=yes" and, in its first line, whose motion it is. Anything else is
+ * a title or a remark. Errors: E_SCHEMA. */
+ambulo_status ambulo__table_header_take(const ambulo__table_line *line, int is_sto,
+                                        const char *file, ambulo_diagnostics *diagnostics,
+                                        ambulo__table_header *header);
+
+/* -------------------------------------------- columns that belong to a coordinate */
+
+typedef enum ambulo__motion_order {
+  AMBULO__ORDER_VALUE,       /* NAME, q.NAME, .../NAME, .../NAME/value */
+  AMBULO__ORDER_RATE,        /* qd.NAME, NAME_u, .../NAME/speed */
+  AMBULO__ORDER_ACCELERATION /* qdd.NAME, .../NAME/accel, .../NAME/acceleration */
+} ambulo__motion_order;
+
+/* 1: `column` is a name of the coordinate's value, rate or acceleration. */
+int ambulo__motion_names(const char *column, const char *coordinate, ambulo__motion_order order);
+/* 1: `column` can only be the value of some coordinate: q.NAME, /jointset/.../NAME/value. */
+int ambulo__motion_is_value(const char *column);
+
+/* Sets *column to the column of a coordinate under one of the names that result files and OpenSim
+ * give it, or to -1. Paths below /forceset/ are actuators, never coordinates. Columns that agree in
+ * every row are one; two that do not are an E_SCHEMA that names both and where they part (`file`
+ * for the message). */
+ambulo_status ambulo__motion_find(const ambulo__motion *motion, const char *file,
+                                  const char *coordinate, ambulo__motion_order order,
+                                  ambulo_diagnostics *diagnostics, int *column);
+
+/* The size beyond which a value (rad or m) is doubted: ten times the range of the joint, and for an
+ * angle that has a range no more than a turn; ten turns for an angle without range, INFINITY for a
+ * length without. Degrees taken for radians, and millimetres for metres, are beyond it unless the
+ * motion is minute. */
+double ambulo__largest_plausible(const ambulo_coordinate *coordinate);
 
 #endif

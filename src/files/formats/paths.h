@@ -13,7 +13,13 @@ char *ambulo__join_paths(const ambulo_allocator *allocator, const char *director
 /* The parts, one after the other. NULL: no memory. */
 char *ambulo__join_parts(const ambulo_allocator *allocator, const char *const *part, int parts);
 
-/* shipped_path.c: `path` is `name` as seen from some folder. *shipped: where nothing is there and
+/* Path of the folder that holds `path` ("." without a '/'). NULL: no memory. */
+char *ambulo__parent_path(const ambulo_allocator *allocator, const char *path);
+/* "<path>.<kind>-<pid>-<k>", where <kind> is "tmp" or "old". NULL: no memory. */
+char *ambulo__sibling_name(const ambulo_allocator *allocator, const char *path, const char *kind,
+                           int k);
+
+/* `path` is `name` as seen from some folder. *shipped: where nothing is there and
  * the name is relative, without "..", the file of that name below the folder that the environment
  * calls AMBULO_MODELS; NULL when `path` is to be taken. Errors: E_MEMORY. */
 ambulo_status ambulo__shipped_path(const ambulo_allocator *allocator, const char *path,
@@ -27,7 +33,7 @@ ambulo_status ambulo__named_file(const ambulo_allocator *allocator, const char *
                                  const char *name, ambulo__place place,
                                  ambulo_diagnostics *diagnostics, char **path);
 
-/* path_between.c: how a file of folder `to` is written as seen from folder `from`: "", "../../a/",
+/* How a file of folder `to` is written as seen from folder `from`: "", "../../a/",
  * or an absolute path that ends with '/'. Both folders exist. NULL: one of them does not, or no
  * memory.
  */

@@ -226,15 +226,14 @@ double ambulo__yaml_number_in(const ambulo__yaml_node *node, double min, double 
   double value;
   if (!node || !read_number(node, &value)) return fallback;
   if (value >= min && value <= max) return value;
-  char least[AMBULO__NUMTEXT_SIZE], most[AMBULO__NUMTEXT_SIZE], expected[128];
-  ambulo__print_double(least, min);
-  ambulo__print_double(most, max);
+  const ambulo__number least = ambulo__number_text(min), most = ambulo__number_text(max);
+  char expected[128];
   if (!isfinite(max)) {
-    (void)snprintf(expected, sizeof expected, "a number of at least %s", least);
+    (void)snprintf(expected, sizeof expected, "a number of at least %s", least.text);
   } else if (!isfinite(min)) {
-    (void)snprintf(expected, sizeof expected, "a number of at most %s", most);
+    (void)snprintf(expected, sizeof expected, "a number of at most %s", most.text);
   } else {
-    (void)snprintf(expected, sizeof expected, "a number from %s to %s", least, most);
+    (void)snprintf(expected, sizeof expected, "a number from %s to %s", least.text, most.text);
   }
   mismatch(node, NULL, expected);
   return fallback;

@@ -1,15 +1,58 @@
-/* formats/yaml_node.c - a document: loading, walking, places and messages. */
+/* formats/yaml_node.c - a document: memory, loading, walking, places and messages, flow text. */
+#include "formats/atomic_file.h"
+#include "formats/foreign_format.h"
+#include "formats/read_file.h"
 #include "formats/yaml_tree.h"
 
-#include "base/numtext.h"
-#include "formats/read_file.h"
-#include "formats/foreign_format.h"
-
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_PATH = 512, MAX_MESSAGE = 1024 };
+enum { CHUNK_SIZE = 16384, MAX_PATH = 512, MAX_MESSAGE = 1024 };
+
+/* ---------------------------------------------------------------------- memory */
+
+struct ambulo__yaml_chunk {
+  ambulo__yaml_chunk *next;
+  size_t used, size;
+  _Alignas(double) char bytes[]; /* `size` of them */
+};
+
+void *ambulo__yaml_allocate(ambulo__yaml *document, size_t count, size_t size) {
+  enum { UNIT = sizeof(double) };
+  if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
+  size_t bytes = (count * size + UNIT - 1) / UNIT * UNIT;
+  ambulo__yaml_chunk *chunk = document->chunks;
+  if (!chunk || chunk->size - chunk->used < bytes) {
+    size_t room = bytes > CHUNK_SIZE ? bytes : CHUNK_SIZE;
+    chunk = ambulo__alloc(&document->allocator, 1, sizeof *chunk + room);
+    if (!chunk) return NULL;
+    chunk->size = room;
+    chunk->next = document->chunks;
+    document->chunks = chunk;
+  }
+  void *block = chunk->bytes + chunk->used;
+  chunk->used += bytes;
+  return block;
+}
+
+char *ambulo__yaml_copy(ambulo__yaml *document, const char *text, size_t length) {
+  char *copy = ambulo__yaml_allocate(document, length + 1, 1);
+  if (copy) memcpy(copy, text, length);
+  return copy;
+}
+
+void ambulo__yaml_free(ambulo__yaml *document) {
+  if (!document) return;
+  ambulo_allocator allocator = document->allocator;
+  for (ambulo__yaml_chunk *chunk = document->chunks; chunk;) {
+    ambulo__yaml_chunk *next = chunk->next;
+    ambulo__free(&allocator, chunk);
+    chunk = next;
+  }
+  ambulo__free(&allocator, document);
+}
 
 /* --------------------------------------------------------------------- loading */
 
@@ -40,10 +83,7 @@ static ambulo_status fill(ambulo__yaml *document, const char *text, size_t lengt
   }
   if (name) {
     document->file = ambulo__yaml_copy(document, name, strlen(name));
-    if (!document->file) {
-      return ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL,
-                           "cannot allocate memory for the document");
-    }
+    if (!document->file) return ambulo__io_memory_error(document->diagnostics, name);
   }
   ambulo_status status = ambulo__refuse_foreign(text, length, AMBULO__TAKES_YAML, document->file,
                                                 document->diagnostics);
@@ -57,11 +97,7 @@ ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char
                                      ambulo_diagnostics *diagnostics, ambulo__yaml **document) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo__yaml *made = ambulo__alloc(&own, 1, sizeof *made);
-  if (!made) {
-    ambulo__place place = {name, 0, 0, NULL};
-    return ambulo__error(diagnostics, AMBULO_E_MEMORY, place, NULL,
-                         "cannot allocate memory for the document");
-  }
+  if (!made) return ambulo__io_memory_error(diagnostics, name);
   made->allocator = own;
   made->diagnostics = diagnostics;
   ambulo_status status = fill(made, text, length, name);
@@ -123,13 +159,11 @@ const ambulo__yaml_node *ambulo__yaml_value(const ambulo__yaml_node *mapping, in
   return child(mapping, AMBULO__YAML_MAPPING, index);
 }
 
-/* FNV-1a: spares most comparisons of texts */
 ambulo__yaml_node *ambulo__yaml_find(const ambulo__yaml_node *mapping, const char *key) {
   if (!mapping || mapping->kind != AMBULO__YAML_MAPPING) return NULL;
-  uint32_t hash = ambulo__yaml_hash(key);
   for (int i = 0; i < mapping->count; i++) {
     ambulo__yaml_node *value = mapping->items[i];
-    if (value->key->hash == hash && strcmp(value->key->text, key) == 0) return value;
+    if (strcmp(value->key->text, key) == 0) return value;
   }
   return NULL;
 }
@@ -200,4 +234,48 @@ void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const
   (void)vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
   ambulo__warning(node->document->diagnostics, ambulo__yaml_place(node), hint, "%s", message);
+}
+
+/* ------------------------------------------------------------------- flow text
+ *
+ * Texts that were quoted are quoted again, so that "12" does not become a number. */
+
+static void append_quoted(const char *word, ambulo__text_buffer *text) {
+  ambulo__text_append_char(text, '"');
+  for (; *word; word++) {
+    if (*word == '\n') {
+      ambulo__text_append(text, "\\n");
+      continue;
+    }
+    if (*word == '"' || *word == '\\') ambulo__text_append_char(text, '\\');
+    ambulo__text_append_char(text, *word);
+  }
+  ambulo__text_append_char(text, '"');
+}
+
+static void append_word(const char *word, int quoted, ambulo__text_buffer *text) {
+  /* plain scalars of a block may hold what ends one of a flow */
+  int plain = word[0] != '\0' && !strpbrk(word, ",[]{}\n\"") && !strstr(word, ": ");
+  if (plain && !quoted)
+    ambulo__text_append(text, word);
+  else
+    append_quoted(word, text);
+}
+
+void ambulo__yaml_flow(const ambulo__yaml_node *node, ambulo__text_buffer *text) {
+  if (node->kind == AMBULO__YAML_SCALAR) {
+    append_word(node->text, node->quoted, text);
+    return;
+  }
+  int is_list = node->kind == AMBULO__YAML_SEQUENCE;
+  ambulo__text_append_char(text, is_list ? '[' : '{');
+  for (int i = 0; i < node->count; i++) {
+    if (i > 0) ambulo__text_append(text, ", ");
+    if (!is_list) {
+      append_word(node->items[i]->key->text, 0, text);
+      ambulo__text_append(text, ": ");
+    }
+    ambulo__yaml_flow(node->items[i], text);
+  }
+  ambulo__text_append_char(text, is_list ? ']' : '}');
 }

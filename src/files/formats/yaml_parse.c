@@ -1,18 +1,112 @@
 /* formats/yaml_parse.c - libyaml's events to a tree.
  *
- * libyaml has no depth limit and takes quadratic time in the depth, accepts duplicate keys
- * and further documents silently, and passes aliases that nothing defines: all of these are
- * refused here, event by event. Its own memory does not come from the allocator hook.
- *
- * Reading order: yaml_node.h, yaml_tree.h, yaml_parse.c, yaml_scan.c, yaml_get.c, yaml_set.c;
- * then tables: table_text.h, table_read.c, table_header.h, sheet.h; motions: motion_file.h,
- * motion_csv.c, motion_sto.c; JSON: json_text.h.
- */
+ * libyaml has no depth limit and takes quadratic time in the depth, accepts duplicate keys and
+ * further documents silently, and passes aliases that nothing defines: all of these are refused
+ * here, event by event. Its own memory does not come from the allocator hook. */
+#include "formats/atomic_file.h"
 #include "formats/yaml_tree.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <yaml.h>
+
+/* ----------------------------------------------------- bytes refused before parsing
+ *
+ * libyaml would refuse most of these as well, but with a byte offset instead of a line. */
+
+/* Length of the UTF-8 sequence at the start of bytes[0..left), 0 if it is not valid: too
+ * short, overlong, a surrogate, or beyond U+10FFFF. *code is the character. */
+static size_t decode(const unsigned char *bytes, size_t left, uint32_t *code) {
+  static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  unsigned char lead = bytes[0];
+  if (lead < 0x80) {
+    *code = lead;
+    return 1;
+  }
+  size_t width = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 0;
+  if (width == 0 || width > left || lead >= 0xf8) return 0;
+  uint32_t value = lead & (0x7fU >> width);
+  for (size_t i = 1; i < width; i++) {
+    if ((bytes[i] & 0xc0) != 0x80) return 0;
+    value = value << 6 | (bytes[i] & 0x3fU);
+  }
+  if (value < least[width] || value > 0x10ffff || (value >= 0xd800 && value < 0xe000)) return 0;
+  *code = value;
+  return width;
+}
+
+static int is_control(uint32_t code) {
+  if (code < 0x20) return code != '\t' && code != '\n' && code != '\r';
+  return code == 0x7f || (code >= 0x80 && code < 0xa0 && code != 0x85) || code == 0xfeff ||
+         code == 0xfffe || code == 0xffff;
+}
+
+/* refuses bytes that are no YAML text (invalid UTF-8, control characters, directives) with their
+ * line and column */
+static ambulo_status scan(ambulo_diagnostics *diagnostics, const char *text, size_t length,
+                          const char *file) {
+  const unsigned char *bytes = (const unsigned char *)text;
+  ambulo__place place = {file, 1, 1, NULL};
+  for (size_t at = 0; at < length;) {
+    uint32_t code = 0;
+    size_t width = decode(bytes + at, length - at, &code);
+    if (width == 0) {
+      return ambulo__error(diagnostics, AMBULO_E_PARSE, place, "save the file as UTF-8",
+                           "invalid UTF-8 (got byte 0x%02x); expected UTF-8 text", bytes[at]);
+    }
+    if (code == 0) {
+      return ambulo__error(diagnostics, AMBULO_E_PARSE, place, NULL,
+                           "got a NUL byte; expected text");
+    }
+    if (is_control(code)) {
+      return ambulo__error(diagnostics, AMBULO_E_PARSE, place, NULL,
+                           "got the control character U+%04X; expected text", (unsigned)code);
+    }
+    /* libyaml compares each %TAG with all others: a file of them would never end */
+    if (code == '%' && place.column == 1 && strncmp(text + at, "%YAML ", 6) != 0) {
+      return ambulo__error(diagnostics, AMBULO_E_PARSE, place, NULL,
+                           "got a line that starts with '%%'; directives are not allowed");
+    }
+    at += width;
+    int carriage = code == '\r' && !(at < length && bytes[at] == '\n');
+    if (code == '\n' || carriage) {
+      place.line++;
+      place.column = 1;
+    } else {
+      place.column++;
+    }
+  }
+  return AMBULO_OK;
+}
+
+/* ---------------------------------------------------------- where a hint looks */
+
+/* offset of a line */
+static size_t start_of_line(const char *text, size_t length, int line) {
+  size_t at = 0;
+  for (; line > 1 && at < length; at++)
+    if (text[at] == '\n') line--;
+  return at;
+}
+
+/* byte at a line and a column, which counts characters (both 1-based); '\0' beyond the text */
+static char byte_at(const char *text, size_t length, int line, int column) {
+  size_t at = start_of_line(text, length, line);
+  for (; at < length && text[at] != '\n'; at++) {
+    int is_first = ((unsigned char)text[at] & 0xc0) != 0x80; /* of a character */
+    if (is_first && column-- == 1) return text[at];
+  }
+  return '\0';
+}
+
+/* whether a line (1-based) is indented with a tab */
+static int tab_indent(const char *text, size_t length, int line) {
+  size_t at = start_of_line(text, length, line);
+  for (; at < length && (text[at] == ' ' || text[at] == '\t'); at++)
+    if (text[at] == '\t') return 1;
+  return 0;
+}
 
 typedef struct builder {
   ambulo__yaml *document;
@@ -38,10 +132,7 @@ static ambulo_status refuse(const builder *b, ambulo_status status, yaml_mark_t 
 }
 
 static ambulo_status out_of_memory(const builder *b) {
-  ambulo__place place = {b->file, 0, 0, NULL};
-  ambulo__error(b->document->diagnostics, AMBULO_E_MEMORY, place, NULL,
-                "cannot allocate memory for the document");
-  return AMBULO_E_MEMORY;
+  return ambulo__io_memory_error(b->document->diagnostics, b->file);
 }
 
 /* ---------------------------------------------------------------- tree growth */
@@ -125,9 +216,8 @@ static ambulo_status check_key(const builder *b, const char *text, int plain, ya
     return refuse(b, AMBULO_E_PARSE, mark, "merge keys ('<<') are not allowed");
   if (b->open->count >= AMBULO__YAML_MAX_KEYS)
     return refuse(b, AMBULO_E_LIMIT, mark, "more than 1024 keys in one mapping");
-  uint32_t hash = ambulo__yaml_hash(text);
   for (const ambulo__yaml_node *value = b->open->first; value; value = value->next) {
-    if (value->key->hash != hash || strcmp(value->key->text, text) != 0) continue;
+    if (strcmp(value->key->text, text) != 0) continue;
     return ambulo__error(b->document->diagnostics, AMBULO_E_SCHEMA, place_at(b, mark), NULL,
                          "duplicate key '%.60s'; the first one is in line %d", text,
                          value->key->line);
@@ -141,7 +231,6 @@ static ambulo_status add_key(builder *b, const char *text, int plain, yaml_mark_
   ambulo__yaml_key_text *key = ambulo__yaml_allocate(b->document, 1, sizeof *key);
   if (!key) return out_of_memory(b);
   key->text = text;
-  key->hash = ambulo__yaml_hash(text);
   key->line = (int)mark.line + 1;
   key->column = (int)mark.column + 1;
   b->key = key;
@@ -217,9 +306,9 @@ static ambulo_status take_event(builder *b, const yaml_event_t *event) {
 /* what was probably meant; NULL: no idea */
 static const char *parser_hint(const builder *b, const yaml_parser_t *parser) {
   int line = (int)parser->problem_mark.line + 1, column = (int)parser->problem_mark.column + 1;
-  if (ambulo__yaml_tab_indent(b->text, b->length, line))
+  if (tab_indent(b->text, b->length, line))
     return "indent with spaces; YAML does not allow tabs there";
-  char at = ambulo__yaml_byte_at(b->text, b->length, line, column);
+  char at = byte_at(b->text, b->length, line, column);
   if ((at == '[' || at == '{') && parser->context && strstr(parser->context, "flow"))
     return "between brackets a text that holds brackets stands in quotes: "
            "{key: \"objective[0].weight\"}";
@@ -257,7 +346,7 @@ ambulo_status ambulo__yaml_parse(ambulo__yaml *document, const char *text, size_
     text += 3; /* byte order mark */
     length -= 3;
   }
-  ambulo_status status = ambulo__yaml_scan(document->diagnostics, text, length, file);
+  ambulo_status status = scan(document->diagnostics, text, length, file);
   if (status != AMBULO_OK) return status;
   builder b = {.document = document, .text = text, .length = length, .file = file};
   b.base_depth = base_depth;

@@ -3,6 +3,7 @@
 #include "formats/yaml_tree.h"
 
 #include "base/numtext.h"
+#include "formats/atomic_file.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -62,12 +63,6 @@ static ambulo__yaml_node *named_item(const ambulo__yaml_node *parent, const char
   return NULL;
 }
 
-static ambulo_status no_memory(const ambulo__yaml *document, const char *file) {
-  ambulo__place place = {file, 0, 0, NULL};
-  return ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL,
-                       "cannot allocate memory for the value");
-}
-
 static ambulo_status no_name(const ambulo__yaml *document, const char *file,
                              const ambulo__yaml_node *parent, const char *word) {
   ambulo__place place = {file, 0, 0, NULL};
@@ -113,7 +108,7 @@ static ambulo_status follow(ambulo__yaml *document, const char *file, ambulo__ya
     return AMBULO_OK;
   }
   char *word = ambulo__yaml_copy(document, where.word, where.length);
-  if (!word) return no_memory(document, file);
+  if (!word) return ambulo__io_memory_error(document->diagnostics, file);
   if (where.kind == NAME) {
     *child = named_item(parent, word);
     return *child ? AMBULO_OK : no_name(document, file, parent, word);
@@ -133,10 +128,9 @@ static ambulo_status append(ambulo__yaml *document, const char *file, ambulo__ya
   size_t count = (size_t)parent->count;
   ambulo__yaml_node **items = ambulo__yaml_allocate(document, count + 1, sizeof(*items));
   ambulo__yaml_key_text *text = ambulo__yaml_allocate(document, 1, sizeof *text);
-  if (!items || !text) return no_memory(document, file);
+  if (!items || !text) return ambulo__io_memory_error(document->diagnostics, file);
   if (count > 0) memcpy(items, parent->items, count * sizeof *items);
   text->text = key;
-  text->hash = ambulo__yaml_hash(key);
   value->key = text;
   value->index = parent->count++;
   items[count] = value;
@@ -203,7 +197,7 @@ ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, 
                                      const char *value) {
   size_t size = strlen("--set ") + strlen(above) + strlen(path) + 1;
   char *file = ambulo__yaml_allocate(document, size, 1);
-  if (!file) return no_memory(document, NULL);
+  if (!file) return ambulo__io_memory_error(document->diagnostics, NULL);
   (void)snprintf(file, size, "--set %s%s", above, path);
   ambulo__yaml_node *parent = NULL, *old = NULL, *made = NULL;
   char *key = NULL;

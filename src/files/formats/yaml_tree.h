@@ -9,8 +9,6 @@
 #include "base/alloc.h"
 #include "formats/yaml_node.h"
 
-#include <stdint.h>
-
 enum {
   AMBULO__YAML_MAX_DEPTH = 32,
   AMBULO__YAML_MAX_KEYS = 1024,    /* of one mapping: lookups compare one by one */
@@ -19,7 +17,6 @@ enum {
 
 typedef struct ambulo__yaml_key_text {
   const char *text;
-  uint32_t hash;
   int line, column;
   int known; /* somebody asked for it */
 } ambulo__yaml_key_text;
@@ -63,7 +60,6 @@ struct ambulo__yaml {
 void *ambulo__yaml_allocate(ambulo__yaml *document, size_t count, size_t size);
 /* Copy of text[0..length) with a NUL; NULL when memory runs out. */
 char *ambulo__yaml_copy(ambulo__yaml *document, const char *text, size_t length);
-uint32_t ambulo__yaml_hash(const char *text);
 /* The value of a key, NULL when absent; marks nothing. */
 ambulo__yaml_node *ambulo__yaml_find(const ambulo__yaml_node *mapping, const char *key);
 
@@ -72,14 +68,5 @@ ambulo__yaml_node *ambulo__yaml_find(const ambulo__yaml_node *mapping, const cha
  * of the document under the name `file`, which must live as long as the document. */
 ambulo_status ambulo__yaml_parse(ambulo__yaml *document, const char *text, size_t length,
                                  const char *file, int base_depth, ambulo__yaml_node **root);
-
-/* Refuses bytes that are no YAML text (invalid UTF-8, control characters, directives) with
- * their line and column, before the parser sees them. */
-ambulo_status ambulo__yaml_scan(ambulo_diagnostics *diagnostics, const char *text, size_t length,
-                                const char *file);
-/* Whether a line (1-based) is indented with a tab. */
-int ambulo__yaml_tab_indent(const char *text, size_t length, int line);
-/* Byte at a line and a column, which counts characters (both 1-based); '\0' beyond the text. */
-char ambulo__yaml_byte_at(const char *text, size_t length, int line, int column);
 
 #endif

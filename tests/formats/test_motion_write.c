@@ -1,5 +1,5 @@
 /* motion.csv and motion.sto read back to the same bits. */
-#include "formats/motion_csv.h"
+#include "formats/motion_write.h"
 #include "formats/motion_file.h"
 #include "people/stride.h"
 #include "support/walker_result.h"

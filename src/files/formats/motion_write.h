@@ -1,6 +1,6 @@
-/* formats/motion_csv.h - a motion as a table, and in OpenSim's form (docs/results.md). */
-#ifndef AMBULO_FORMATS_MOTION_CSV_H
-#define AMBULO_FORMATS_MOTION_CSV_H
+/* formats/motion_write.h - a motion as a table, and in OpenSim's form (docs/results.md). */
+#ifndef AMBULO_FORMATS_MOTION_WRITE_H
+#define AMBULO_FORMATS_MOTION_WRITE_H
 
 #include "ambulo/device.h"
 #include "ambulo/hold.h"

@@ -230,13 +230,13 @@ static void gaps_are_read_where_they_are_asked_for(void **state) {
   const char *path = scratch_path(state, "forces.csv");
   ambulo__motion *motion = NULL;
   scratch_write(path, text);
-  assert_int_equal(ambulo__motion_read(path, NULL, NULL, &motion), AMBULO_E_SCHEMA);
-  assert_int_equal(ambulo__motion_read_gaps(path, NULL, NULL, &motion), AMBULO_OK);
+  assert_int_equal(ambulo__motion_read(path, 0, NULL, NULL, &motion), AMBULO_E_SCHEMA);
+  assert_int_equal(ambulo__motion_read(path, 1, NULL, NULL, &motion), AMBULO_OK);
   assert_true(isnan(motion->values[0]) && isnan(motion->values[3]));
   assert_close(motion->values[2], 2.0, 0.0);
   ambulo__motion_free(motion);
   scratch_write(path, "time,x\nnan,1\n1,2\n");
-  assert_int_equal(ambulo__motion_read_gaps(path, NULL, NULL, &motion), AMBULO_E_SCHEMA);
+  assert_int_equal(ambulo__motion_read(path, 1, NULL, NULL, &motion), AMBULO_E_SCHEMA);
 }
 
 /* the header of an older OpenSim, and of a table by ambulo */

@@ -1,18 +1,14 @@
-/* formats/table_read.c - text of a motion to a table (motion_file.h).
+/* formats/motion_read.c - text of a motion to a table (motion_file.h).
  *
  * Three steps: the lines before the column names (STO keys, CSV comments), the names, the
  * rows. Every fault is reported with line and column, and reading goes on after it. */
-#include "formats/motion_file.h"
 #include "base/numtext.h"
-#include "formats/read_file.h"
 #include "formats/foreign_format.h"
-#include "formats/table_header.h"
+#include "formats/motion_file.h"
+#include "formats/read_file.h"
 
 #include <math.h>
 #include <string.h>
-
-/* characters of a bad cell that are repeated in a message */
-#define QUOTE_LENGTH 40
 
 typedef struct table_reader {
   const char *text;
@@ -41,10 +37,6 @@ static ambulo__place here(const table_reader *reader, int column) {
 
 static void fault(table_reader *reader, ambulo_status status) {
   if (reader->status == AMBULO_OK) reader->status = status;
-}
-
-static int quoted_length(const ambulo__table_cell *cell) {
-  return cell->length < QUOTE_LENGTH ? (int)cell->length : QUOTE_LENGTH;
 }
 
 /* next line that is neither empty nor (in CSV) a comment */
@@ -104,14 +96,14 @@ static void check_name(table_reader *reader, const ambulo__table_cell *cell, con
     if (c >= ' ' && c != 127 && c != ',' && c != '"') continue;
     fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column),
                                 NULL, "column name '%.*s' contains the character 0x%02x",
-                                quoted_length(cell), cell->start, c));
+                                ambulo__table_quoted(cell), cell->start, c));
     break;
   }
   for (int c = 0; c < reader->name_count; c++) {
     if (strcmp(reader->names[c], name) != 0) continue;
     fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column),
                                 NULL, "duplicate column '%.*s' (also column %d)",
-                                quoted_length(cell), name, c + 2));
+                                ambulo__table_quoted(cell), name, c + 2));
     break;
   }
 }
@@ -148,7 +140,7 @@ static ambulo_status read_names(table_reader *reader) {
     /* hardly a motion at all: the rows would only be noise */
     return ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, 1),
                          "a motion is a table (CSV, STO or MOT) of times and named columns",
-                         "the first column is '%.*s'; expected 'time'", quoted_length(&cell),
+                         "the first column is '%.*s'; expected 'time'", ambulo__table_quoted(&cell),
                          cell.start);
   }
   while (ambulo__table_next_cell(line, cells, &position, &cell)) {
@@ -178,10 +170,11 @@ static int read_number(table_reader *reader, const ambulo__table_cell *cell, int
     *value = (double)NAN;
     return 1;
   }
-  fault(reader, ambulo__error(
-                    reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
-                    "column '%s': not a number (got '%.*s'); expected a finite number",
-                    column < 0 ? "time" : reader->names[column], quoted_length(cell), cell->start));
+  fault(reader,
+        ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
+                      "column '%s': not a number (got '%.*s'); expected a finite number",
+                      column < 0 ? "time" : reader->names[column], ambulo__table_quoted(cell),
+                      cell->start));
   return 0;
 }
 
@@ -194,7 +187,7 @@ static void check_time(table_reader *reader, const ambulo__table_cell *cell, dou
         ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
                       "time does not increase (got '%.*s'); expected more than in "
                       "the row before",
-                      quoted_length(cell), cell->start));
+                      ambulo__table_quoted(cell), cell->start));
 }
 
 /* row `row` says what the one before says, but for the last digits of ten that are printed */
@@ -351,8 +344,8 @@ ambulo_status ambulo__table_read(const char *text, size_t length, const char *na
   return AMBULO_OK;
 }
 
-static ambulo_status read_file(const char *path, int gaps, const ambulo_allocator *allocator,
-                               ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+ambulo_status ambulo__motion_read(const char *path, int gaps, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   char *text = NULL;
   size_t length = 0;
@@ -363,14 +356,4 @@ static ambulo_status read_file(const char *path, int gaps, const ambulo_allocato
                               diagnostics, motion);
   ambulo__free(&own, text);
   return status;
-}
-
-ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  return read_file(path, 0, allocator, diagnostics, motion);
-}
-
-ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  return read_file(path, 1, allocator, diagnostics, motion);
 }
