@@ -7,7 +7,7 @@
 #include "exchange/body_tree.h"
 
 #include "base/arithmetic.h"
-#include "model/check.h"
+#include "model/model_check.h"
 
 #include <math.h>
 #include <stdio.h>

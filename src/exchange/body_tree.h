@@ -14,7 +14,7 @@
 #include "base/text_buffer.h"
 #include "exchange/rigid.h"
 #include "exchange/xml.h"
-#include "model/composite.h"
+#include "model/model_check.h"
 
 #include <stddef.h>
 

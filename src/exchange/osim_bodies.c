@@ -2,7 +2,7 @@
  * (osim.h). */
 #include "exchange/osim.h"
 
-#include "model/check.h"
+#include "model/model_check.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -15,7 +15,7 @@
 #include "base/numtext.h"
 #include "base/arithmetic.h"
 #include "exchange/body_tree.h"
-#include "model/check.h"
+#include "model/model_check.h"
 
 #include <math.h>
 #include <stdio.h>

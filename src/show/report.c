@@ -7,7 +7,7 @@
 #include "contact/effector.h"
 #include "formats/atomic_file.h"
 #include "formats/motion_write.h"
-#include "model/check.h"
+#include "model/model_check.h"
 #include "people/stride.h"
 #include "problem/nlp.h"
 #include "show/gait_svg.h"

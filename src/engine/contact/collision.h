@@ -24,7 +24,7 @@ ambulo_status ambulo__rest_gap(const ambulo_model *model, ambulo_capsule_pair pa
                                const ambulo_allocator *allocator, double *gap);
 
 /* 1: rows of the definition stand on capsule i, whose ends then are points of the model
- * (model/capsule_points.h). The pairs are those listed, not AMBULO_COLLISION_AUTOMATIC. */
+ * (model/model_query.h). The pairs are those listed, not AMBULO_COLLISION_AUTOMATIC. */
 int ambulo__capsule_is_used(const ambulo_problem_definition *definition, int capsule);
 /* Capsules, obstacles, places and times: every number and name in its range; reaches without a
  * node are found with the rows. E_PROBLEM. */

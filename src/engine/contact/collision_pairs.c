@@ -1,6 +1,6 @@
 /* contact/collision_pairs.c - which capsules are kept apart.
  *
- * Automatic: of all pairs those are left out whose links are neighbours (model/capsule_points.h),
+ * Automatic: of all pairs those are left out whose links are neighbours (model/model_query.h),
  * for what a joint joins overlaps there; those that overlap in the rest pose, for they would never
  * hold; and those that are too far apart to meet: that come no nearer than `far` in any of POSES
  * poses, coordinates within their ranges, or anywhere if ranges are no rows. The poses are the same
@@ -11,7 +11,7 @@
 #include "base/arithmetic.h"
 #include "contact/segments.h"
 #include "mechanics/pose.h"
-#include "model/capsule_points.h"
+#include "model/model_query.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * linear.
  *
  * A capsule of a link is all that is within its radius of a segment whose ends are points of the
- * model (model/capsule_points.h). It keeps D = its radius + the other's radius + a margin away from
+ * model (model/model_query.h). It keeps D = its radius + the other's radius + a margin away from
  * another capsule's segment, which moves or stands still, or from a box. With V and, of a box, P of
  * contact/segments.h, contact/segment_box.h,
  *

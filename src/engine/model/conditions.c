@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/composite.h"
+#include "model/model_check.h"
 
 void ambulo__model_carry(ambulo_model *model, int link, double mass, const double position[3]) {
   ambulo_link *carrier = &model->links[link];

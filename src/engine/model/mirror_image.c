@@ -16,11 +16,11 @@
  * left and right may be described in frames of either handedness. Feet: the points that touch the
  * ground are reflected, the two corners at one end in either order.
  *
- * All in the axes (forward, up, left) of model/segments.h, H = diag(1, 1, -1).
+ * All in the axes (forward, up, left) of model/neutral_pose.h, H = diag(1, 1, -1).
  */
 #include "model/mirror_image.h"
 
-#include "model/segments.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 
 #include "ambulo/model.h"
 #include "base/alloc.h"
+#include "base/diagnostics.h"
 
 /* One of the file's units in SI units and radians; all 0: the model was made from C. */
 typedef struct ambulo__model_units {
@@ -45,7 +46,7 @@ struct ambulo_model {
   int patch_count;
   ambulo_capsule *capsules; /* [capsule_count] */
   int *capsule_point; /* [capsule_count]: the point at its `from`, before that at its `to`; -1: it
-                         has no points (model/capsule_points.h) */
+                         has no points (model/model_query.h) */
   int capsule_count;
 };
 
@@ -59,7 +60,6 @@ static inline void ambulo__along_axes(const ambulo_model *model, const double al
 /* Structural and physical checks of a definition, all of them, each with the
  * name of the link or coordinate it is about. places[i] (may be NULL) is where
  * link i stands in a file. */
-#include "base/diagnostics.h"
 typedef struct ambulo__model_places {
   const ambulo__place *links, *coordinates, *points, *feet, *patches, *capsules; /* each may be
                                                                                    NULL */
@@ -83,5 +83,22 @@ double ambulo__model_weight(const ambulo_model *model);
 
 /* Index of a patch by its name; -1: none. */
 int ambulo__find_patch(const ambulo_model *model, const char *name);
+
+/* the definition of a caller as one of this library. */
+
+enum { AMBULO__MODEL_ARRAYS = 6 };
+
+/* The caller's arrays where they are of this library's items, else longer ones. */
+typedef struct ambulo__taken_model {
+  ambulo_model_definition definition;
+  ambulo_allocator allocator;
+  void *longer[AMBULO__MODEL_ARRAYS];
+} ambulo__taken_model;
+
+/* E_ARGUMENT: not from ambulo_model_definition_default(), or arrays that are not there; E_MEMORY.
+ * Dropped in either case. */
+ambulo_status ambulo__model_take(const ambulo_model_definition *given,
+                                 const ambulo_allocator *allocator, ambulo__taken_model *taken);
+void ambulo__model_drop(ambulo__taken_model *taken);
 
 #endif

@@ -100,3 +100,128 @@ int ambulo__is_root_translation(const ambulo_model *model, int coordinate) {
   }
   return model->coordinates[coordinate].type == AMBULO_PRISMATIC;
 }
+
+/* DH transforms and bodies at q = 0 (segments.h).
+ *
+ * T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) has, with c, s of theta,
+ *
+ *         [ c  -s ca   s sa ]           [ a c ]
+ *     R = [ s   c ca  -c sa ],      t = [ a s ],      A_i = A_p R,   o_i = o_p + A_p t
+ *         [ 0     sa     ca ]           [  d  ]
+ *
+ * The world's frame has the rows forward, up and left instead of the unit matrix. A body of link i
+ * becomes  c = o_i + A_i c_i,  I = A_i I_i A_i'.
+ */
+
+static ambulo__segment_frame world_frame(const ambulo_model *model) {
+  ambulo__segment_frame world;
+  for (int j = 0; j < 3; j++) {
+    world.axes[0][j] = model->forward[j];
+    world.axes[1][j] = model->up[j];
+    world.axes[2][j] = model->left[j];
+    world.origin[j] = 0.0;
+  }
+  return world;
+}
+
+/* A v */
+static void turn(const ambulo__segment_frame *frame, const double v[3], double out[3]) {
+  for (int i = 0; i < 3; i++)
+    out[i] = frame->axes[i][0] * v[0] + frame->axes[i][1] * v[1] + frame->axes[i][2] * v[2];
+}
+
+static void place(const ambulo__segment_frame *frame, const double v[3], double out[3]) {
+  turn(frame, v, out);
+  for (int i = 0; i < 3; i++) out[i] += frame->origin[i];
+}
+
+static ambulo__segment_frame frame_of(const ambulo__segment_frame *parent,
+                                      const ambulo_link *link) {
+  double c = cos(link->theta), s = sin(link->theta);
+  double ca = cos(link->alpha), sa = sin(link->alpha);
+  const double columns[3][3] = {{c, s, 0.0}, {-s * ca, c * ca, sa}, {s * sa, -c * sa, ca}};
+  const double t[3] = {link->a * c, link->a * s, link->d};
+  ambulo__segment_frame frame;
+  for (int j = 0; j < 3; j++) {
+    double axis[3];
+    turn(parent, columns[j], axis);
+    for (int i = 0; i < 3; i++) frame.axes[i][j] = axis[i];
+  }
+  place(parent, t, frame.origin);
+  return frame;
+}
+
+/* the body of a link in the common axes */
+static ambulo__part body_of(const ambulo__segment_frame *frame, const ambulo_link *link) {
+  static const int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  ambulo__part body = {.mass = link->mass};
+  place(frame, link->com, body.com);
+  for (int e = 0; e < 6; e++) {
+    for (int u = 0; u < 3; u++) {
+      for (int v = 0; v < 3; v++) {
+        body.inertia[e] +=
+            frame->axes[row[e]][u] * link->inertia[entry[u][v]] * frame->axes[column[e]][v];
+      }
+    }
+  }
+  return body;
+}
+
+static void fill(ambulo__segments *s) {
+  const ambulo_model *model = s->model;
+  const ambulo__segment_frame world = world_frame(model);
+  s->heaviest[0] = -1;
+  for (int c = 0; c < model->coordinate_count; c++) s->heaviest[c + 1] = model->coordinate_link[c];
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    s->frame[i] = frame_of(link->parent < 0 ? &world : &s->frame[link->parent], link);
+    s->of_link[i] = link->coordinate >= 0 ? link->coordinate + 1
+                    : link->parent >= 0   ? s->of_link[link->parent]
+                                          : 0;
+    if (link->mass == 0.0) continue;
+    int segment = s->of_link[i], *heaviest = &s->heaviest[segment];
+    if (*heaviest < 0 || link->mass > model->links[*heaviest].mass) *heaviest = i;
+    ambulo__part body = body_of(&s->frame[i], link);
+    ambulo__part_add(&s->body[segment], &body);
+  }
+}
+
+ambulo_status ambulo__segments_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo__segments *segments) {
+  ambulo__segments s = {.allocator = ambulo__allocator_or_default(allocator), .model = model};
+  size_t links = (size_t)model->link_count, count = (size_t)model->coordinate_count + 1;
+  s.frame = ambulo__alloc(&s.allocator, links, sizeof *s.frame);
+  s.of_link = ambulo__alloc(&s.allocator, links, sizeof *s.of_link);
+  s.body = ambulo__alloc(&s.allocator, count, sizeof *s.body);
+  s.heaviest = ambulo__alloc(&s.allocator, count, sizeof *s.heaviest);
+  if (!s.frame || !s.of_link || !s.body || !s.heaviest) {
+    ambulo__segments_free(&s);
+    return AMBULO_E_MEMORY;
+  }
+  fill(&s);
+  *segments = s;
+  return AMBULO_OK;
+}
+
+void ambulo__segments_free(ambulo__segments *s) {
+  ambulo__free(&s->allocator, s->frame);
+  ambulo__free(&s->allocator, s->of_link);
+  ambulo__free(&s->allocator, s->body);
+  ambulo__free(&s->allocator, s->heaviest);
+}
+
+int ambulo__segment_parent(const ambulo__segments *s, int coordinate) {
+  int parent = s->model->links[s->model->coordinate_link[coordinate]].parent;
+  return parent < 0 ? 0 : s->of_link[parent];
+}
+
+ambulo__segment_frame ambulo__segment_joint(const ambulo__segments *s, int coordinate) {
+  int parent = s->model->links[s->model->coordinate_link[coordinate]].parent;
+  return parent < 0 ? world_frame(s->model) : s->frame[parent];
+}
+
+void ambulo__segment_point(const ambulo__segments *s, int point, double result[3]) {
+  const ambulo_point *p = &s->model->points[point];
+  place(&s->frame[p->link], p->position, result);
+}

@@ -25,7 +25,7 @@
 #include "contact/devices.h"
 #include "contact/gait.h"
 #include "model/mirror_image.h"
-#include "model/segments.h"
+#include "model/neutral_pose.h"
 #include "problem/term.h"
 
 #include <math.h>

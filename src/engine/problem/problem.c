@@ -8,7 +8,7 @@
  * evaluate.c, motion.c, row_runs.h, gradient.c, row_gradients.c; derivative_check.c compares them.
  */
 #include "problem/nlp.h"
-#include "model/capsule_points.h"
+#include "model/model_query.h"
 #include "base/arithmetic.h"
 #include "contact/load_profile.h"
 #include "contact/phases.h"

@@ -8,8 +8,7 @@
 
 #include "formats/yaml_node.h"
 #include "ambulo/tools/load.h"
-#include "model/check.h"
-#include "model/composite.h"
+#include "model/model_check.h"
 
 typedef struct ambulo__origin ambulo__origin; /* of a link (model_placement.c) */
 

@@ -1,11 +1,11 @@
-/* model/capsule_points.h - a model whose capsules have their ends among its points.
+/* model/model_query.h - a model whose capsules have their ends among its points.
  *
  * What the mechanics knows of a body's shape are its points, and each costs: three numbers with
  * their derivatives at every node. So a model as it is loaded has none for its capsules, and a
  * problem with rows about some of them works with a copy that has two more points for each of
  * these, behind the model's own: "NAME.from" and "NAME.to". */
-#ifndef AMBULO_MODEL_CAPSULE_POINTS_H
-#define AMBULO_MODEL_CAPSULE_POINTS_H
+#ifndef AMBULO_MODEL_MODEL_QUERY_H
+#define AMBULO_MODEL_MODEL_QUERY_H
 
 #include "base/diagnostics.h"
 #include "model/model.h"

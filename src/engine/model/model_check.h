@@ -1,6 +1,6 @@
-/* model/check.h - the single checks behind ambulo__model_check. */
-#ifndef AMBULO_MODEL_CHECK_H
-#define AMBULO_MODEL_CHECK_H
+/* model/model_check.h - the checks of a model and of its definition. */
+#ifndef AMBULO_MODEL_MODEL_CHECK_H
+#define AMBULO_MODEL_MODEL_CHECK_H
 
 #include "base/diagnostics.h"
 #include "base/numtext.h"
@@ -58,5 +58,15 @@ void ambulo__check_coordinates(ambulo__checker *c);
 void ambulo__check_contacts(ambulo__checker *c);
 /* Capsules: links, sizes, mirror pairs. */
 void ambulo__check_capsules(ambulo__checker *c);
+
+/* several rigid bodies as one. */
+
+/* A rigid body: mass, centre of mass, inertia about it [xx yy zz xy xz yz]. */
+typedef struct ambulo__part {
+  double mass, com[3], inertia[6];
+} ambulo__part;
+
+/* Adds `part` to `whole` by the parallel-axis theorem. */
+void ambulo__part_add(ambulo__part *whole, const ambulo__part *part);
 
 #endif

@@ -1,13 +1,39 @@
-/* model/body_check.c - could this body exist?
+/* model/link_bodies.c - bodies of links: could each exist, and several as one.
+ *
+ * Parallel-axis theorem for two bodies with masses m, n and centres a, b: with d = b - a,
+ *   mass = m + n,  centre = a + n/(m + n) d,
+ *   I = I_m + I_n + m n/(m + n) (|d|^2 1 - d d^T)        about the common centre
+ */
+#include "model/model_check.h"
+
+#include <math.h>
+
+void ambulo__part_add(ambulo__part *whole, const ambulo__part *part) {
+  if (whole->mass == 0) {
+    *whole = *part;
+    return;
+  }
+  double mass = whole->mass + part->mass, reduced = whole->mass * part->mass / mass;
+  double d[3];
+  for (int i = 0; i < 3; i++) d[i] = part->com[i] - whole->com[i];
+  const double offset[6] = {d[1] * d[1] + d[2] * d[2],
+                            d[0] * d[0] + d[2] * d[2],
+                            d[0] * d[0] + d[1] * d[1],
+                            -d[0] * d[1],
+                            -d[0] * d[2],
+                            -d[1] * d[2]};
+  for (int i = 0; i < 6; i++) whole->inertia[i] += part->inertia[i] + reduced * offset[i];
+  for (int i = 0; i < 3; i++) whole->com[i] += part->mass / mass * d[i];
+  whole->mass = mass;
+}
+
+/* could this body exist?
  *
  * Inertia I about the centre of mass, [xx yy zz xy xz yz], kg m^2. With the second moments of
  * mass S = tr(I)/2 - I >= 0 (an integral of squares), the principal moments obey
  *   0 <= I1 <= I2 <= I3 <= I1 + I2.
  * Equality is legal (a thin rod, a flat plate, a point), so rounding needs a tolerance.
  */
-#include <math.h>
-
-#include "model/check.h"
 
 static const double LEAST_MASS = 1e-9, LARGEST_MASS = 1e6; /* kg */
 static const double LONGEST = 1e6, LARGEST_INERTIA = 1e12; /* m, kg m^2: squares stay finite */
