@@ -122,8 +122,8 @@ static void every_allocation_may_fail(void **state) {
     ambulo_status status = ambulo_problem_create(&d, &allocator, NULL, &problem);
     if (!status) status = ambulo_workspace_create(problem, &allocator, &workspace);
     if (status) assert_int_equal(status, AMBULO_E_MEMORY);
+    ambulo_problem_free(problem); /* before the workspace, as collectors of garbage may */
     ambulo_workspace_free(workspace);
-    ambulo_problem_free(problem);
     assert_int_equal(memory.live, 0);
     completed = !memory.failed;
   }

@@ -59,10 +59,9 @@ struct ambulo_problem {
       *extended_model;  /* `model` where capsules have rows (problem/queries.c); else NULL */
   ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
-  struct ambulo__free_section
-      *free;                     /* one block (solver/free_problem.c); NULL: nothing is free */
-  const ambulo_problem *extends; /* what this one extends (problem/variants.c); NULL: none */
-  ambulo_problem *owned_base;    /* freed with the problem; NULL if the caller owns it */
+  struct ambulo__free_section *free; /* one block (solver/free_problem.c); NULL: nothing is free */
+  const ambulo_problem *extends;     /* what this one extends (problem/variants.c); NULL: none */
+  ambulo_problem *owned_base;        /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
   const ambulo__kernels *kernels;
@@ -95,8 +94,11 @@ static inline const ambulo_problem *ambulo__problem_root(const ambulo_problem *p
   return problem;
 }
 
+enum { AMBULO__WORKSPACE_ARRAYS = 23 };
+
 struct ambulo_workspace {
   ambulo_allocator allocator;
+  double *owned[AMBULO__WORKSPACE_ARRAYS]; /* what is freed; the problem may be gone by then */
   const ambulo_problem *problem;
   int channel_count;
   double *x;                    /* [variables]: the point the rest belongs to */

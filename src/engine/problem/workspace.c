@@ -19,7 +19,7 @@ typedef struct array {
   double **at;
   size_t count;
 } array;
-enum { NONE = 0, VALUE_ARRAYS = 14, ARRAYS = 23 };
+enum { NONE = 0, VALUE_ARRAYS = 14, ARRAYS = AMBULO__WORKSPACE_ARRAYS };
 
 /* arrays that values need first; then those of the Jacobians, by far the largest */
 static void list_arrays(ambulo_workspace *w, array list[ARRAYS]) {
@@ -63,8 +63,8 @@ static ambulo_status allocate(ambulo_workspace *w, int first, int end) {
   list_arrays(w, list);
   for (int i = first; i < end; i++) {
     if (list[i].count == NONE) continue;
-    *list[i].at = ambulo__alloc_aligned(&w->allocator, list[i].count, sizeof(double));
-    if (!*list[i].at) return AMBULO_E_MEMORY;
+    *list[i].at = w->owned[i] = ambulo__alloc_aligned(&w->allocator, list[i].count, sizeof(double));
+    if (!w->owned[i]) return AMBULO_E_MEMORY;
   }
   return AMBULO_OK;
 }
@@ -109,9 +109,7 @@ ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
 void ambulo_workspace_free(ambulo_workspace *w) {
   if (!w) return;
   ambulo_allocator a = w->allocator;
-  array list[ARRAYS];
-  list_arrays(w, list);
-  for (int i = 0; i < ARRAYS; i++) ambulo__free_aligned(&a, *list[i].at);
+  for (int i = 0; i < ARRAYS; i++) ambulo__free_aligned(&a, w->owned[i]);
   ambulo__free(&a, w->user_slot);
   ambulo__free(&a, w);
 }
