@@ -113,25 +113,21 @@ static ambulo_status fill_values(builder *b, ambulo__sweep_case *one) {
   return AMBULO_OK;
 }
 
-/* `case_name` with {axis} replaced by the axis's text */
+/* `case_name` with {axis} replaced by the axis's text; ambulo__sweep_check_name has read it */
 static char *expand_name(builder *b, const char *pattern) {
-  char name[AMBULO__SWEEP_TEXT];
+  char name[AMBULO__SWEEP_TEXT] = "", axis[AMBULO__SWEEP_TEXT];
   size_t length = 0;
   for (const char *c = pattern; *c && length + 1 < sizeof name;) {
-    const char *end = *c == '{' ? strchr(c, '}') : NULL;
-    if (!end || (size_t)(end - c) >= sizeof name) {
-      name[length++] = *c++;
-      continue;
-    }
-    char axis[AMBULO__SWEEP_TEXT];
-    memcpy(axis, c + 1, (size_t)(end - c) - 1);
-    axis[end - c - 1] = '\0';
-    const char *text = text_of_axis(b, axis);
-    for (text = text ? text : axis; *text && length + 1 < sizeof name; text++)
-      name[length++] = *text;
-    c = end + 1;
+    size_t plain = strcspn(c, "{");
+    int copied = snprintf(name + length, sizeof name - length, "%.*s", (int)plain, c);
+    length += (size_t)copied;
+    c += plain;
+    if (*c != '{' || length >= sizeof name) break;
+    size_t inside = strcspn(++c, "}");
+    (void)snprintf(axis, sizeof axis, "%.*s", (int)inside, c);
+    length += (size_t)snprintf(name + length, sizeof name - length, "%s", text_of_axis(b, axis));
+    c += inside + 1;
   }
-  name[length] = '\0';
   return ambulo__strdup(&b->sweep->allocator, name);
 }
 

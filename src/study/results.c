@@ -60,21 +60,15 @@ static ambulo_status read_outputs(reader *r, const char *id, ambulo__finding *fi
   return ambulo__damage_of(status, file ? file : "/", r->reasons, &r->damage);
 }
 
+/* the state of a row */
 static const char *count(reader *r, ambulo__finding finding) {
   ambulo_batch_census *census = &r->census;
-  switch (finding) {
-  case AMBULO__FOUND_NOTHING:
-    census->missing++;
-    return "missing";
-  case AMBULO__FOUND_STALE:
-    census->stale++;
-    return "stale";
-  case AMBULO__FOUND_DAMAGED:
-    census->corrupt++;
-    return "corrupt";
-  case AMBULO__FOUND_INTACT:
-    break;
-  }
+  census->missing += finding == AMBULO__FOUND_NOTHING;
+  census->stale += finding == AMBULO__FOUND_STALE;
+  census->corrupt += finding == AMBULO__FOUND_DAMAGED;
+  if (finding == AMBULO__FOUND_NOTHING) return "missing";
+  if (finding == AMBULO__FOUND_STALE) return "stale";
+  if (finding == AMBULO__FOUND_DAMAGED) return "corrupt";
   census->done++;
   census->failed += !r->record.valid;
   census->seconds += r->record.seconds;

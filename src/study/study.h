@@ -113,8 +113,12 @@ ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_sweep **sweep);
 /* *copy of the text at a node, where there is one. */
-ambulo_status ambulo__sweep_copy(const ambulo_sweep *sweep, const ambulo__yaml_node *node,
-                                 char **copy);
+static inline ambulo_status ambulo__sweep_copy(const ambulo_sweep *sweep,
+                                               const ambulo__yaml_node *node, char **copy) {
+  if (!node) return AMBULO_OK;
+  *copy = ambulo__strdup(&sweep->allocator, ambulo__yaml_text(node));
+  return *copy ? AMBULO_OK : AMBULO_E_MEMORY;
+}
 /* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
  * was not read any more is no stranger. Returns `status`. */
 static inline ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section,

@@ -244,8 +244,9 @@ static void tell_causes(ambulo_sweep *s, const ambulo_diagnostics *list, size_t 
 /* where the value of a case stands; the axis, where it is no value of a sweep file */
 static ambulo__spot spot_of_value(const ambulo_sweep *s, int index, int i) {
   const ambulo__axis *axis = &s->axis[i];
+  const char *cell = s->cell[(size_t)index * (size_t)s->axes + (size_t)i];
   for (int k = 0; k < axis->count; k++)
-    if (ambulo__axis_text(axis, k) == ambulo_sweep_value(s, index, i)) return axis->value[k].spot;
+    if (ambulo__axis_text(axis, k) == cell) return axis->value[k].spot;
   return axis->spot;
 }
 

@@ -11,13 +11,6 @@
 
 enum { MOST_BASE_BYTES = 16 << 20 };
 
-ambulo_status ambulo__sweep_copy(const ambulo_sweep *s, const ambulo__yaml_node *node,
-                                 char **copy) {
-  if (!node) return AMBULO_OK;
-  *copy = ambulo__strdup(&s->allocator, ambulo__yaml_text(node));
-  return *copy ? AMBULO_OK : AMBULO_E_MEMORY;
-}
-
 static ambulo_status read_filters(ambulo_sweep *s, const ambulo__yaml_node *node) {
   int items = ambulo__yaml_items(node);
   ambulo_status status = AMBULO_OK;
