@@ -75,6 +75,12 @@ static void shards_of_one_division_run_side_by_side(void **state) {
   expect(state, 2, 3, 0);
   let_go(first);
   expect(state, 3, 4, 0);
+  /* another number of shards is seen from above and from below */
+  first = hold(state, 1, 4);
+  expect(state, 2, 3, first);
+  expect(state, 2, 5, first);
+  expect(state, 2, 4, 0);
+  let_go(first);
 }
 
 int main(void) {

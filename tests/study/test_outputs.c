@@ -16,7 +16,7 @@ static void make_result(void **state) {
       "\"body\": {\"up\": [0, 1, 0]}, \"none\": null}\n");
   /* the mean is over time: 2 for 1 s, then from 2 to 4 in 1 s */
   scratch_write(scratch_path(state, "cases/cd/000000001-0000abcd/motion.csv"),
-                "# units\ntime,q.pin,zmp.x\n0,2,nan\n1,2,1\n1.5,3,nan\n2,4,5\n");
+                "# units\ntime,q.pin,zmp.x\n1,2,nan\n2,2,1\n2.5,3,nan\n3,4,5\n");
 }
 
 static void values_are_found(void **state) {

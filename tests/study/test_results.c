@@ -2,6 +2,7 @@
  * each kind, the k-th request for memory. No table says what is not so, and every failure has a
  * message. */
 #define _DEFAULT_SOURCE /* syscall */
+#include "study/results.h"
 #include "support/fault_world.h"
 
 /* -------------------------------------------------------------------- table */
@@ -26,8 +27,8 @@ static int corrupt_lines(const char *got, const char *good, const char *mark) {
 }
 
 static void remove_tables(void) {
-  static const char *const names[] = {"results.csv", "results.jsonl", "results_T_objective.svg"};
-  for (int i = 0; i < 3; i++) (void)unlink(in_folder(names[i]));
+  static const char *const names[] = {"results.csv", "results.jsonl"};
+  for (int i = 0; i < 2; i++) (void)unlink(in_folder(names[i]));
 }
 
 /* after a failure there is no table, or a right one; after none it says what it lacks */
@@ -138,10 +139,43 @@ static void memory_fails_while_it_is_verified(void **state) {
   }
 }
 
+/* ------------------------------------------------------------------- states */
+
+static ambulo_status keep_state(void *user, const ambulo__row *row) {
+  char *all = user;
+  strcat(strcat(all, row->state), row->valid ? "+ " : " ");
+  return AMBULO_OK;
+}
+
+/* of another sweep's list the cases are stale or missing; they keep their values of axes */
+static void states_of_rows(void **state) {
+  const ambulo_allocator plain = ambulo__allocator_or_default(NULL);
+  ambulo_sweep *other = NULL;
+  ambulo__table table;
+  ambulo_batch_census census;
+  char states[200] = "";
+  assert_int_equal(sweep_load(state,
+                              "axes:\n  - {key: model, values: [one.yaml]}\n"
+                              "  - {key: time.duration, name: T, values: [1, 2]}\n"
+                              "cases:\n  - {set: {time.intervals: 9}}\noutputs: [objective]\n",
+                              NULL, &other),
+                   AMBULO_OK);
+  assert_int_equal(ambulo__study_describe(other, w.folder, &plain, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__table_open(w.folder, AMBULO__CELLS, NULL, NULL, &table), AMBULO_OK);
+  assert_int_equal(ambulo__table_rows(&table, AMBULO__CELLS, keep_state, states, &census),
+                   AMBULO_OK);
+  assert_string_equal(states, "optimal+ stale missing ");
+  assert_true(census.done == 1 && census.stale == 1 && census.missing == 1 && census.failed == 0);
+  assert_string_equal(table.title[1], "T");
+  ambulo__table_close(&table);
+  ambulo_sweep_free(other);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
-  const struct CMUnitTest tests[] = {
-      TEST(files_fail_while_it_collects), TEST(memory_fails_while_it_collects),
-      TEST(files_fail_while_it_is_verified), TEST(memory_fails_while_it_is_verified)};
+  const struct CMUnitTest tests[] = {TEST(files_fail_while_it_collects),
+                                     TEST(memory_fails_while_it_collects),
+                                     TEST(files_fail_while_it_is_verified),
+                                     TEST(memory_fails_while_it_is_verified), TEST(states_of_rows)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
