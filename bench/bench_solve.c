@@ -4,7 +4,7 @@
  *
  * The yardstick at N = 12 ... 576 by the pipeline (loading excluded, continuation and audit
  * included): processor seconds, where they go, evaluations, objective; the power of N that the
- * time grows with; then the small problems by each algorithm, with and without presolve. A case
+ * time grows with; then the small problems by each algorithm. A case
  * that ends without a feasible point is printed as such, and its time is not recorded. */
 #include "mechanics/kernels.h"
 #include "bench_csv.h"
@@ -95,15 +95,12 @@ static void report_algorithms(bench_table *table) {
   static const char *const paths[] = {AMBULO_SOURCE_DIR "/models/two_link_reach.yaml",
                                       AMBULO_SOURCE_DIR "/models/walker_2d_step.yaml",
                                       AMBULO_SOURCE_DIR "/models/yardstick_12.yaml"};
-  static const char *const algorithms[][2] = {
-      {"auto", "on"}, {"slsqp", "on"}, {"auglag", "on"}, {"slsqp", "off"}, {"auglag", "off"}};
+  static const char *const algorithms[] = {"auglag", "slsqp"};
   for (int i = 0; i < 3; i++) {
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < 2; k++) {
       char solver[80], name[72];
-      (void)snprintf(solver, sizeof solver, "solver={algorithm: %s, presolve: %s}",
-                     algorithms[k][0], algorithms[k][1]);
-      (void)snprintf(name, sizeof name, "%s by %s presolve %s", problems[i], algorithms[k][0],
-                     algorithms[k][1]);
+      (void)snprintf(solver, sizeof solver, "solver.algorithm=%s", algorithms[k]);
+      (void)snprintf(name, sizeof name, "%s by %s", problems[i], algorithms[k]);
       const char *overrides[] = {solver, "time.intervals=6", "trajectory.intervals=6"};
       (void)solve(table, name, paths[i], overrides, i == 2 ? 3 : 1, 1);
     }

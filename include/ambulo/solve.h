@@ -65,18 +65,10 @@ typedef enum ambulo_ending {
 } ambulo_ending;
 
 typedef enum ambulo_algorithm {
-  AMBULO_AUTO = 0, /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
-  AMBULO_SLSQP,    /* NLopt's SLSQP */
+  AMBULO_AUTO = 0, /* NLopt's AUGLAG */
+  AMBULO_SLSQP,    /* NLopt's SLSQP on every row, dense: small problems. Up to 4 GB */
   AMBULO_AUGLAG    /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
-
-/* Whose the equality rows are, with presolve. */
-typedef enum ambulo_equalities {
-  AMBULO_EQUALITIES_NOT_SET = 0, /* refused */
-  AMBULO_EQUALITIES_HELD, /* every point that NLopt sees satisfies them: Ambulo carries it there */
-  AMBULO_EQUALITIES_NLOPT /* NLopt's AUGLAG gets them as constraints, beside the inequalities, each
-                             with its dense gradient: to compare; much slower. Up to 4 GB */
-} ambulo_equalities;
 
 /* Progress of a solve, given to the callback after every iteration, and at least every tenth
  * of a second during set-up, audit and explanation, where the objective or the violation may be
@@ -97,8 +89,6 @@ typedef struct ambulo_progress {
 typedef struct ambulo_options {
   size_t size; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
-  int presolve;            /* 1: drop dependent equalities, whiten, restore, retract, screen;
-                              0: every row handed straight to NLopt */
   int maximum_evaluations; /* of the objective and the rows; 20000 */
   int maximum_iterations;  /* inner solves of AUGLAG a grid, calls of NLopt otherwise; 150 */
   double time_limit; /* s of wall time; AMBULO_OFF: none. It holds from set-up to explanation; what
@@ -110,8 +100,6 @@ typedef struct ambulo_options {
   double optimality_tolerance;  /* relative KKT residual that counts as optimal, 1e-14 to 1; 1e-3 */
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
-  ambulo_equalities equalities; /* with presolve; _NLOPT not with AMBULO_SLSQP, which gets them all
-                                   anyway */
   int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:
                  auto`; without effect in ambulo_solve */
   int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as

@@ -192,11 +192,10 @@ static ambulo_status compare_folder(const ambulo_allocator *a, ambulo_diagnostic
 static ambulo_problem *small; /* of solve_with: two links */
 
 static ambulo_status solve_with(const ambulo_allocator *a, ambulo_diagnostics *list,
-                                ambulo_algorithm algorithm, int presolve) {
+                                ambulo_algorithm algorithm) {
   ambulo_options options = ambulo_problem_options(small);
   ambulo_result *result = NULL;
   options.algorithm = algorithm;
-  options.presolve = presolve;
   options.maximum_iterations = 2;
   ambulo_status status = ambulo_solve(small, &options, NULL, a, list, &result);
   ambulo_result_free(result);
@@ -204,15 +203,11 @@ static ambulo_status solve_with(const ambulo_allocator *a, ambulo_diagnostics *l
 }
 
 static ambulo_status solve(const ambulo_allocator *a, ambulo_diagnostics *list) {
-  return solve_with(a, list, AMBULO_AUTO, 1);
+  return solve_with(a, list, AMBULO_AUTO);
 }
 
-static ambulo_status solve_by_pipeline(const ambulo_allocator *a, ambulo_diagnostics *list) {
-  return solve_with(a, list, AMBULO_AUGLAG, 1);
-}
-
-static ambulo_status solve_plain(const ambulo_allocator *a, ambulo_diagnostics *list) {
-  return solve_with(a, list, AMBULO_SLSQP, 0);
+static ambulo_status solve_by_slsqp(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  return solve_with(a, list, AMBULO_SLSQP);
 }
 
 /* a start that leads nowhere, a second attempt from zero, and an explanation */
@@ -291,8 +286,7 @@ static void solves(void **state) {
   assert_int_equal(ambulo_problem_load(MODEL "two_link_reach.yaml", NULL, 0, NULL, NULL, &small),
                    AMBULO_OK);
   try_all("ambulo_solve", solve);
-  try_all("ambulo_solve by the pipeline", solve_by_pipeline);
-  try_all("ambulo_solve, plain", solve_plain);
+  try_all("ambulo_solve by SLSQP", solve_by_slsqp);
   ambulo_problem_free(small);
   assert_int_equal(ambulo_problem_load(AMBULO_SOURCE_DIR "/tests/infeasible/torque_too_weak.yaml",
                                        NULL, 0, NULL, NULL, &small),

@@ -170,7 +170,7 @@ static const char every_key[] =
     "subject: {mass: 70, stature: 1.7, sex: male}\n"
     "time: {duration: 1, intervals: 8}\n"
     "trajectory: {basis: bspline, degree: 3, intervals: 4, breakpoints: [0, 0.2, 0.5, 0.8, 1]}\n"
-    "solver: {algorithm: auto, presolve: on, continuation: off, time_limit: 9,\n"
+    "solver: {algorithm: auto, continuation: off, time_limit: 9,\n"
     "  maximum_evaluations: 100, feasibility_tolerance: 1e-6, optimality_tolerance: 1e-4,\n"
     "  dense_samples: 10}\n"
     "contacts:\n"

@@ -118,7 +118,7 @@ static void overrides_come_first(void **state) {
   (void)state;
   const char *text = PENDULUM REST;
   const char *const good[] = {"time.intervals=36", "name=swing", "time.duration=2.5",
-                              "solver.presolve=off"};
+                              "solver.continuation=off"};
   ambulo_problem *p = NULL;
   assert_int_equal(
       ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
@@ -132,7 +132,7 @@ static void overrides_come_first(void **state) {
   assert_int_equal(ambulo_problem_node_count(p), 37);
   assert_close(ambulo_problem_duration(p), 2.5, 0.0);
   assert_string_equal(ambulo_problem_name(p), "swing");
-  assert_int_equal(ambulo_problem_options(p).presolve, 0);
+  assert_int_equal(ambulo_problem_options(p).continuation, 0);
   ambulo_problem_free(p);
   p = NULL;
   static const struct {
@@ -177,7 +177,7 @@ static void damaged_files_are_survived(void **state) {
                               "time: {duration: 1, intervals: 4}\n"
                               "trajectory: {basis: bspline, breakpoints: [0, 0.4, 1]}\n"
                               "ends: {initial: {swing: 3}, final: {swing: 90}}\n"
-                              "solver: {algorithm: slsqp, presolve: off}\n"
+                              "solver: {algorithm: slsqp, continuation: off}\n"
                               "objective: [{term: torque_squared, scale: {swing: 2}}]\n";
   size_t length = strlen(text);
   for (size_t cut = 0; cut < length; cut++) {

@@ -22,8 +22,8 @@ static void values_are_replaced_and_added(void **state) {
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[1][0]", "9"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[0]", "[5, 6]"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "solver", "{algorithm: slsqp}"), AMBULO_OK);
-  assert_int_equal(ambulo__yaml_set(c.document, "solver.presolve", "off"), AMBULO_OK);
-  assert_int_equal(ambulo__yaml_set(c.document, "solver.presolve", "on"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "solver.continuation", "off"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "solver.continuation", "on"), AMBULO_OK);
 
   const ambulo__yaml_node *time = at(c.root, "time"), *terms = at(c.root, "objective");
   assert_int_equal(ambulo__yaml_integer(at(time, "intervals"), 1, 100, 0), 72);
@@ -37,9 +37,9 @@ static void values_are_replaced_and_added(void **state) {
   assert_true(row[0][0] == 5.0 && row[0][1] == 6.0 && row[1][0] == 9.0 && row[1][1] == 4.0);
   const ambulo__yaml_node *solver = at(c.root, "solver");
   assert_string_equal(ambulo__yaml_text(at(solver, "algorithm")), "slsqp");
-  assert_string_equal(ambulo__yaml_text(at(solver, "presolve")), "on");
+  assert_string_equal(ambulo__yaml_text(at(solver, "continuation")), "on");
   assert_int_equal(ambulo__yaml_pairs(solver), 2);
-  assert_string_equal(ambulo__yaml_place(at(solver, "presolve")).path, "solver.presolve");
+  assert_string_equal(ambulo__yaml_place(at(solver, "continuation")).path, "solver.continuation");
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[1]", "[0, 0]"), AMBULO_OK);
   assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(at(c.root, "matrix"), 1)).path,
                       "matrix[1]");

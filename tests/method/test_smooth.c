@@ -145,10 +145,10 @@ static void the_start_is_returned_at_least(void **state) {
   for (size_t i = 0; i < 2; i++) {
     started s;
     open_started(&s, names[i]);
-    for (int presolve = 0; presolve < 2; presolve++) {
+    for (int slsqp = 0; slsqp < 2; slsqp++) {
       for (int evaluations = 1; evaluations < 100; evaluations += 9) {
         ambulo_options options = ambulo_problem_options(s.problem);
-        options.presolve = presolve;
+        options.algorithm = slsqp ? AMBULO_SLSQP : AMBULO_AUGLAG;
         options.maximum_evaluations = evaluations;
         ambulo_result *result = solve_from(&s, &options);
         assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));

@@ -44,11 +44,6 @@ static void each_fault_is_named(void **state) {
     refuse(o, "optimality_tolerance");
   }
   o = ambulo_options_default();
-  o.equalities = (ambulo_equalities)3;
-  refuse(o, "solver equalities are unknown (got 3)");
-  o.equalities = AMBULO_EQUALITIES_NOT_SET;
-  refuse(o, "solver equalities are not set (got 0); expected held or nlopt");
-  o = ambulo_options_default();
   o.dense_samples = 0;
   refuse(o, "dense_samples");
 }

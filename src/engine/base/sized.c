@@ -104,7 +104,6 @@ static const ambulo__usual rows[] = {
 
     ROW(ambulo_options, 1,
         {.algorithm = AMBULO_AUTO,
-         .presolve = 1,
          .maximum_evaluations = 20000,
          .maximum_iterations = 150,
          .time_limit = AMBULO_OFF,
@@ -113,8 +112,7 @@ static const ambulo__usual rows[] = {
          .optimality_tolerance = 1e-3,
          .continuation = 1,
          .starts = 1,
-         .dense_samples = 10,
-         .equalities = AMBULO_EQUALITIES_HELD}),
+         .dense_samples = 10}),
     ROW(ambulo_parameter, 0, {.lower = AMBULO_OFF, .upper = AMBULO_OFF}),
     ROW(ambulo_parameters, 2, {.maximum_solves = 60}),
 };

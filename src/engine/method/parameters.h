@@ -141,7 +141,7 @@
 /* Points without a change that end a solve whose gradient is not small; points without progress
  * that show that a coarse grid has no room for the rows, which is then left, and its multipliers
  * with it (2554 iterations over 48 problems; never: 3127); calls of NLopt without progress
- * (direct.c). x: free. T: stopping, refine, direct. */
+ * (slsqp.c). x: free. T: stopping, refine, slsqp. */
 #define AMBULO__PATIENCE 6
 /* Relative change of f that is none; a hundred times as much is progress. x: free. Never: a torque
  * that is too weak takes 50 iterations, not 150. T: stopping. */
@@ -199,13 +199,10 @@
 #define AMBULO__ROUGH_DEVIATION 0.02
 #define AMBULO__ROUGH_ACCELERATION 30.0
 
-/* ----------------------------------------------- every row handed to NLopt (direct.c) */
+/* ----------------------------------------------- every row handed to NLopt (slsqp.c) */
 
-/* Evaluations of a call of SLSQP: more than any needs (plain walker_2d_step 710 in all). */
+/* Evaluations of a call of SLSQP: more than any needs (walker_2d_step 130). */
 #define AMBULO__CALL_EVALUATIONS 1500
-/* Calls, and evaluations of each, that carry a plain start onto the rows. x: no change. */
-#define AMBULO__REACH_CALLS 8
-#define AMBULO__REACH_EVALUATIONS 120
 /* Bytes: dense work of SLSQP beyond which a problem is refused. */
 #define AMBULO__DIRECT_MEMORY 4e9
 

@@ -62,8 +62,7 @@ static ambulo_status create_fine(const ambulo_problem *p, double shift,
   d.term_count = 0;
   d.user_rows = NULL;
   d.user_row_count = 0;
-  ambulo_status status =
-      ambulo__problem_build(&d, &dense->allocator, diagnostics, &dense->fine);
+  ambulo_status status = ambulo__problem_build(&d, &dense->allocator, diagnostics, &dense->fine);
   ambulo__free(&dense->allocator, contacts);
   ambulo__free(&dense->allocator, times);
   return status;

@@ -42,10 +42,6 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
   if (options->algorithm < AMBULO_AUTO || options->algorithm > AMBULO_AUGLAG)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver algorithm %d", (int)options->algorithm);
-  if (options->equalities < AMBULO_EQUALITIES_HELD || options->equalities > AMBULO_EQUALITIES_NLOPT)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "solver equalities are %s (got %d); expected held or nlopt",
-                         options->equalities ? "unknown" : "not set", (int)options->equalities);
   if (options->maximum_evaluations < 1)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.maximum_evaluations is %d; expected at least 1",

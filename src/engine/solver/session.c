@@ -70,9 +70,7 @@ static ambulo_status judge(ambulo__session *s) {
 static ambulo_status look_again(ambulo__session *s) {
   ambulo_result *r = s->result;
   ambulo_status status = AMBULO_OK;
-  const ambulo_options *o = s->run.options;
-  int able =
-      o->presolve && o->equalities == AMBULO_EQUALITIES_HELD && s->engine->setup->rows->regular;
+  int able = s->engine->setup->rows->regular;
   for (int k = 0; k < SECOND_LOOKS && !status; k++) {
     double before = r->objective;
     int cut = ambulo__run_over(&s->run) || s->run.ending == AMBULO_ENDING_ITERATIONS;

@@ -3,8 +3,8 @@
  *
  *   usually          NLopt's AUGLAG on the equalities' surface           (pipeline.c),
  *                    from coarser grids when it starts at zero           (refine.c)
- *   if asked for, or for rows that span the grid: NLopt's SLSQP or AUGLAG on every row, whitened
- *                    or, without presolve, as they are                   (direct.c)
+ *   slsqp            NLopt's SLSQP on every row: asked for, or for rows
+ *                    that span the grid                                  (slsqp.c)
  *
  * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
@@ -14,7 +14,7 @@
  * audit_point.c; what they call: method/pipeline.c, method/refine.c, solver/audit.c.
  */
 #include "solver/session.h"
-#include "method/direct.h"
+#include "method/slsqp.h"
 #include "method/pipeline.h"
 #include "method/refine.h"
 #include "problem/nlp.h"
@@ -68,16 +68,11 @@ static ambulo_status solve_by_pipeline(ambulo__session *s) {
 }
 
 static ambulo_status solve_problem(ambulo__session *s) {
-  const ambulo_options *o = s->run.options;
-  int slsqp = o->algorithm == AMBULO_SLSQP || (!o->presolve && o->algorithm != AMBULO_AUGLAG);
-  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->setup->rows->regular;
   s->nlopt = NULL;
-  if (o->presolve && !slsqp && !all_rows) return solve_by_pipeline(s);
-  s->method = slsqp         ? o->presolve ? "NLopt's SLSQP, whitened" : "NLopt's SLSQP, plain"
-              : o->presolve ? "NLopt's AUGLAG with LBFGS, whitened, all rows"
-                            : "NLopt's AUGLAG with LBFGS, plain";
-  return ambulo__solve_direct(s->engine, slsqp ? AMBULO_SLSQP : AMBULO_AUGLAG, !o->presolve,
-                              s->diagnostics, s->result->x, &s->nlopt);
+  if (s->run.options->algorithm != AMBULO_SLSQP && s->engine->setup->rows->regular)
+    return solve_by_pipeline(s);
+  s->method = "NLopt's SLSQP, whitened";
+  return ambulo__solve_slsqp(s->engine, s->diagnostics, s->result->x, &s->nlopt);
 }
 
 /* an attempt from where result->x stands; what it finds joins the candidates */
@@ -96,7 +91,7 @@ static ambulo_status search(ambulo__session *s) {
   if (s->start) {
     int smoothed = 0;
     ambulo__candidates_offer_start(&s->candidates, s->engine, x);
-    if (s->run.options->presolve) status = ambulo__smooth_start(s->engine, x, &smoothed);
+    status = ambulo__smooth_start(s->engine, x, &smoothed);
   }
   if (!status) status = attempt(s);
   if (status) return status;

@@ -126,14 +126,10 @@ static double read_limit(const ambulo__yaml_node *node) {
 
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const algorithms[] = {"auto", "slsqp", "auglag"};
-  static const char *const equalities[] = {"held", "nlopt"};
   ambulo_options *o = &reader->options;
   if (!section) return;
   int algorithm = ambulo__yaml_choice(ambulo__yaml_get(section, "algorithm"), algorithms, 3, 0);
   o->algorithm = (ambulo_algorithm)algorithm;
-  int whose = ambulo__yaml_choice(ambulo__yaml_get(section, "equalities"), equalities, 2, 0);
-  o->equalities = (ambulo_equalities)(AMBULO_EQUALITIES_HELD + whose);
-  o->presolve = read_switch(ambulo__yaml_get(section, "presolve"), o->presolve);
   o->maximum_evaluations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_evaluations"), 1,
                                                 1000000000, o->maximum_evaluations);
   o->maximum_iterations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_iterations"), 1,
