@@ -1,15 +1,15 @@
-/* ambulo/sensitivity.h - what each number of a problem costs, at its solution.
+/* ambulo/sensitivity.h - how the least objective changes with each number of a problem.
  *
- * For every number p that a problem is made of - step length and width, times, phases, slope, mass
- * and load, limits, tolerances, friction, weights, strengths, prescribed ends - the derivative of
- * the least objective f* with p, without another solve. By the envelope theorem (Fiacco,
- * Mathematical Programming 12, 1976) it is the derivative of the Lagrangian at the solution x* with
- * its multipliers (ambulo_result_multipliers):
+ * For every number p that a problem is made of - step length and width, times, phases, slope,
+ * subject and load, limits, tolerances, friction, weights, strengths, prescribed ends - the
+ * derivative of the least objective f* with p, without another solve. By the envelope theorem
+ * (Fiacco, Mathematical Programming 12, 1976) it is the derivative of the Lagrangian at the
+ * solution x* with its multipliers (ambulo_result_multipliers), found by differences in p:
  *
  *     df*_dp = d/dp [ f(x*; p) - sum_r multiplier_r c_r(x*; p) ]
  *
  * A change of p by d changes the least objective by df*_dp d + O(d^2) as long as the same rows stay
- * active and the solution stays in its valley. What it is worth:
+ * active and the solution stays in its valley. How good it is:
  *
  *   - x* is known to options.optimality_tolerance; the error of df*_dp is of the first order in it.
  *     For more digits solve with a tighter tolerance.
@@ -18,31 +18,27 @@
  *     as a step length moves the corners of a flat foot, every choice gives the same value. If p
  *     moves one of them alone, f* has a kink at p (or the problem has a solution on one side
  *     only), and the value is between the slopes of the two sides.
- *   - Phases of a gait, and times of listed contacts, are there on grids on events
- *     (AMBULO_GRID_EVENTS without node_times): nodes, and knots if they are on events, go along,
- *     and each phase keeps its number of intervals. Contacts that begin or end at one time move
- *     together. A time that coincides with 0, T, an event of another phase of a gait or, for nodes
- *     that move along fixed knots of a cubic, with a knot has no derivative and is left out; so are
- *     all beside references, tubes and functions of the caller.
- *   - Of what hands hold mass, inertia, center and push; on uniform grids also when and over which
- *     ramp, on grids on events where nothing else, such as a reach, begins or ends at its times:
- *     nodes go along.
- *   - Where contacts share the load (AMBULO_REACTION_SHARED) their weights, centres, patches and
- *     greatest forces go along with places and times.
- *   - Of footholds off the level ground also height, heading, and a normal that is given. Contacts
- *     of a foot that follow each other on one foothold move together. Left out are what would
- *     leave level ground, and the height of a foothold from which a foot swings to another of the
- *     same height (rows of swinging feet change in a jump there); places and heights of equal steps
- *     past whose edges a foot swings (a kink); and, in a motion that repeats, footholds at 0 and T
- *     with travel and rise, of which none moves alone.
- *   - A number on which the grid, or what is active at a node, depends in jumps has no derivative
- *     and is left out: those times on uniform grids, numbers of intervals. Left out as well are
- *     those that act through a file (stature, a reference) or a curve (exponents,
- *     smoothings, passive torques, shapes of strength), and a duration beside which other times
- *     stay in seconds (listed contacts, breakpoints, node times, steps of two times, references,
- *     reaches that begin or end within the motion, on grids on events also what hands hold,
- * functions of the caller).
  *   - Functions of the caller are taken to depend on p only through their node's state.
+ *
+ * What moves together:
+ *
+ *   - On grids on events (AMBULO_GRID_EVENTS without node_times) nodes go along with phases and
+ *     times of contacts, and so do knots on events; each phase keeps its number of intervals.
+ *   - Contacts that begin or end at one time go on doing so; contacts of a foot that follow each
+ *     other on one foothold stay on one.
+ *   - With mirrored ends left and right stay alike.
+ *
+ * What is not listed:
+ *
+ *   - Numbers that the grid, or what is active at a node, depends on in jumps: times on uniform
+ *     grids, numbers of intervals, what would leave level ground.
+ *   - Times of events beside references, tubes and functions of the caller, and a duration beside
+ *     other times in seconds: listed contacts, breakpoints, node times, steps of two times,
+ *     references, reaches within the motion, on grids on events what hands hold.
+ *   - Footholds at 0 and T of a motion that repeats, with travel and rise: none moves alone.
+ *   - Numbers at a kink: an event at 0, T, another event or a knot of a cubic; the height of a
+ *     foothold as high as the one before.
+ *   - Limits that the motion does not touch.
  */
 #ifndef AMBULO_SENSITIVITY_H
 #define AMBULO_SENSITIVITY_H
@@ -73,14 +69,14 @@ typedef struct ambulo_sensitivity {
   double travel;     /* d travel / dp, m per unit: what it adds to the distance between the ends */
   double step;       /* a change that one can picture, in unit: 1 cm, 1 degree, 1 kg, 1 % */
   double share;      /* derivative * step / f*: .008 is 0.8 %; NaN where f* is not positive */
-  const char *words; /* "1 cm more step length costs 0.8 %" */
+  const char *words; /* "1 cm more step length raises the objective by 0.8 %" */
 } ambulo_sensitivity;
 
 typedef struct ambulo_sensitivity_list {
   const ambulo_sensitivity *items; /* largest derivative * step first */
   int count;
   const char *reason; /* why there is none: the point is not optimal, or there is no objective; ""
-                         otherwise. Limits that the motion does not touch have none either */
+                         otherwise */
 } ambulo_sensitivity_list;
 
 /* `result` is one of `problem`. A list is returned whatever the verdict. E_ARGUMENT, E_MEMORY,

@@ -30,7 +30,7 @@ static ambulo_status audit(const ambulo__cli_input *input, evaluation *e) {
 
 static ambulo_status print_json(const evaluation *e) {
   char *text = NULL;
-  ambulo_status status = ambulo_report_summary(e->problem, e->result, NULL, &text);
+  ambulo_status status = ambulo_report_summary(e->problem, e->result, NULL, NULL, &text);
   if (status) return status;
   fputs(text, stdout);
   ambulo_text_free(text, NULL);

@@ -97,6 +97,7 @@ static int read_options(job *j) {
   j->directory = directory ? strdup(directory) : default_directory(input->arguments[0]);
   j->diagnostics = ambulo_diagnostics_create(NULL);
   if (!j->directory || !j->diagnostics) return ambulo_status_exit_code(AMBULO_E_MEMORY);
+  j->report.sensitivities = ambulo__cli_flag(input, "sensitivities");
   j->terminal = isatty(STDERR_FILENO) && !ambulo__cli_flag(input, "quiet");
   return 0;
 }
@@ -153,7 +154,7 @@ static ambulo_status solve(job *j) {
 
 static ambulo_status print_json(const job *j) {
   char *text = NULL;
-  ambulo_status status = ambulo_report_summary(j->problem, j->result, NULL, &text);
+  ambulo_status status = ambulo_report_summary(j->problem, j->result, &j->report, NULL, &text);
   if (status) return status;
   fputs(text, stdout);
   ambulo_text_free(text, NULL);
@@ -230,7 +231,9 @@ static const ambulo__cli_option options[] = {
     {"samples", 0, "n", "number of times in motion.csv (default: the time nodes)"},
     {"force", 0, NULL, "replace an existing result folder"},
     {"quiet", 'q', NULL, "no progress, no summary"},
-    {"sensitivities", 0, NULL, "print how the objective changes with each number of the problem"},
+    {"sensitivities", 0, NULL,
+     "find how the objective changes with each number of the problem: print\nit, and write it to "
+     "summary.json"},
     {"json", 0, NULL, "print summary.json instead of the summary"},
 };
 

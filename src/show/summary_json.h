@@ -46,8 +46,10 @@ ambulo_status ambulo__reaction_json(ambulo__json *json, const ambulo_problem *pr
 
 /* summary.json (docs/results.md). */
 
-/* Appends the whole text; failures stick to the buffer. */
+/* Appends the whole text, with sensitivities where they are asked for; failures stick to the
+ * buffer.
+ */
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          ambulo__text_buffer *text);
+                          int with_sensitivities, ambulo__text_buffer *text);
 
 #endif

@@ -207,8 +207,8 @@ static void files_need_names(void **state) {
   REFUSED(ambulo_report_write(o->problem, o->result, NULL, NULL, NULL, NULL));
   REFUSED(ambulo_report_write(NULL, o->result, "x", NULL, NULL, NULL));
   REFUSED(ambulo_report_write(o->problem, NULL, "x", NULL, NULL, NULL));
-  REFUSED(ambulo_report_summary(NULL, o->result, NULL, &text));
-  REFUSED(ambulo_report_summary(o->problem, o->result, NULL, NULL));
+  REFUSED(ambulo_report_summary(NULL, o->result, NULL, NULL, &text));
+  REFUSED(ambulo_report_summary(o->problem, o->result, NULL, NULL, NULL));
   REFUSED(ambulo_solution_load(NULL, o->problem, NULL, NULL, o->out));
   REFUSED(ambulo_solution_load("x", NULL, NULL, NULL, o->out));
   REFUSED(ambulo_solution_start("x", o->problem, NULL, NULL, NULL));

@@ -11,7 +11,7 @@ static void test_content(void **state) {
   walk w;
   walk_open(&w, 12);
   char *text = NULL;
-  assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
+  assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, NULL, &text), AMBULO_OK);
   assert_true(is_json(text));
   static const char *const parts[] = {"\"verdict\": \"feasible\"",
                                       "\"total\": 0.30000000000000004",
@@ -49,7 +49,7 @@ static void test_not_finite(void **state) {
   w.result->objective = (double)NAN;
   w.result->audit.violation.worst = INFINITY;
   char *text = NULL;
-  assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
+  assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, NULL, &text), AMBULO_OK);
   assert_true(is_json(text));
   assert_non_null(strstr(text, "\"total\": null"));
   ambulo_text_free(text, NULL);
@@ -67,7 +67,7 @@ static void test_stride(void **state) {
       ambulo_problem_load("tests/support/walk_rigid.yaml", NULL, 0, NULL, NULL, &problem),
       AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_report_summary(problem, result, NULL, &text), AMBULO_OK);
+  assert_int_equal(ambulo_report_summary(problem, result, NULL, NULL, &text), AMBULO_OK);
   assert_int_equal(occurrences(text, "\"foot\": \"left\""), 1);
   assert_int_equal(occurrences(text, "\"foot\": \"right\""), 1);
   static const char key[] = "\"impulse_up\": ";
@@ -80,7 +80,7 @@ static void test_stride(void **state) {
     ambulo_allocator hook = fail_alloc_hook(&memory);
     memory.only_once = 1;
     text = NULL;
-    ambulo_status status = ambulo_report_summary(problem, result, &hook, &text);
+    ambulo_status status = ambulo_report_summary(problem, result, NULL, &hook, &text);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     ambulo_text_free(text, &hook);
     assert_int_equal(memory.live, 0);
@@ -110,7 +110,7 @@ static void test_between_nodes(void **state) {
     assert_int_equal(ambulo__dense_audit(w.problem, 10, 1, NULL, w.result), AMBULO_OK);
     assert_int_equal(ambulo__dense_advise(w.problem, 1, NULL, NULL, w.result), AMBULO_OK);
     char *text = NULL;
-    assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
+    assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, NULL, &text), AMBULO_OK);
     assert_true(is_json(text));
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
       if (!strstr(text, parts[i])) print_error("%s is missing from\n%s\n", parts[i], text);

@@ -20,6 +20,7 @@ typedef struct ambulo_report_options {
   int overwrite;     /* 1: replace an existing result folder */
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
                         a walk in gait.svg; NULL: none */
+  int sensitivities; /* 1: summary.json has them (ambulo/sensitivity.h): some 0.1 to 1 s */
 } ambulo_report_options;
 AMBULO_TOOL_DEFAULT(ambulo_report_options);
 
@@ -40,10 +41,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(const ambulo_probl
                                                               ambulo_diagnostics *diagnostics);
 
 /* The text of summary.json; free with ambulo_text_free. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(const ambulo_problem *problem,
-                                                                const ambulo_result *result,
-                                                                const ambulo_allocator *allocator,
-                                                                char **text);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(
+    const ambulo_problem *problem, const ambulo_result *result,
+    const ambulo_report_options *options, const ambulo_allocator *allocator, char **text);
 
 /* The versions of what is running, as text. */
 typedef struct ambulo_versions {

@@ -19,7 +19,7 @@
  * the change that a person can picture - 0.5 mm of a step, 5 % of 1 % of a ratio - and 1 % where
  * nodes go along, which are a millisecond apart. The tableau ends where that error is 1e-9 of D or
  * rounding of L, eps S / h with S the sum of the sizes of those terms and rows that change (the
- * others cancel, part by part); or where it grows again.
+ * others cancel, part by part).
  *
  * Where there is no such problem on one side (a margin below 0), or one whose phases have other
  * numbers of intervals (two that have equal claims to one), the other side alone is used,
@@ -228,12 +228,6 @@ static int is_settled(const tableau *t, double tolerance, double noise) {
   return t->error <= tolerance * fabs(t->best) + noise;
 }
 
-/* of the last level, in a tableau that has turned worse */
-static int grows(const tableau *t) {
-  int k = t->levels - 1;
-  return k >= 3 && fabs(t->entry[k][k] - t->entry[k - 1][k - 1]) > 2.0 * t->error;
-}
-
 /* the slopes of the two sides, (L(p + h) - L(p)) / h and (L(p) - L(p - h)) / h: how far apart */
 typedef struct bend {
   double now, before;
@@ -273,7 +267,7 @@ static ambulo_status differ(stationary *s, ambulo__parameter *n, int *found) {
               ((high ? s->high : s->here).travel - (low ? s->low : s->here).travel) / width);
     b = (bend){(up - down) / h, b.now, one_side ? 0 : b.levels + 1};
     int straight = k == 0 && !one_side && fabs(b.now) <= linear * fabs(slope.best) + noise;
-    if (straight || is_settled(&slope, settled, noise) || grows(&slope)) break;
+    if (straight || is_settled(&slope, settled, noise)) break;
   }
   n->derivative = slope.best;
   n->travel = travel.best;

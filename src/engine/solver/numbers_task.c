@@ -113,7 +113,7 @@ static void add_passive(const term_keys *t, int i) {
 }
 
 static void add_prices(const term_keys *t, int i) {
-  static const char *const words[] = {"price of negative torque", "price of positive torque"};
+  static const char *const words[] = {"weight on negative torque", "weight on positive torque"};
   double sign;
   int m = partner_of(t, i, &sign);
   for (int up = 0; up < 2; up++) {

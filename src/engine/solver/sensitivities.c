@@ -1,5 +1,5 @@
 /* solver/sensitivities.c - ambulo_sensitivities: the numbers of a problem at a result, as a person
- * says them: "1 cm more step length costs 0.8 %". */
+ * says them: "1 cm more step length raises the objective by 0.8 %". */
 #include "solver/sensitivity.h"
 
 #include <math.h>
@@ -56,10 +56,11 @@ static void say(ambulo__parameter *p, double objective) {
     (void)snprintf(p->words, sizeof p->words, "%s %s changes the objective by %.2g", more, p->label,
                    change);
   } else if (change == 0.0) {
-    (void)snprintf(p->words, sizeof p->words, "%s %s costs nothing", more, p->label);
+    (void)snprintf(p->words, sizeof p->words, "%s %s leaves the objective as it is", more,
+                   p->label);
   } else {
-    (void)snprintf(p->words, sizeof p->words, "%s %s %s %.2g %%", more, p->label,
-                   change > 0.0 ? "costs" : "saves", 100.0 * fabs(p->share));
+    (void)snprintf(p->words, sizeof p->words, "%s %s %s the objective by %.2g %%", more, p->label,
+                   change > 0.0 ? "raises" : "lowers", 100.0 * fabs(p->share));
   }
 }
 

@@ -102,6 +102,7 @@ static void change(const ambulo__variant *v, ambulo_model *m) {
     memcpy(m->coordinates[i].speed, v->coordinates[i].speed, 2 * sizeof(double));
     memcpy(m->coordinates[i].torque, v->coordinates[i].torque, 2 * sizeof(double));
   }
+  if (!body_moved(v)) return;
   memcpy(load, m->loads, sizeof load);
   ambulo__model_put_down(m);
   ambulo__model_resize(m, before.mass > 0.0 ? now->mass / before.mass : 1.0,
@@ -170,7 +171,7 @@ static ambulo_status make(const ambulo__variant *v, const ambulo_problem_definit
   const ambulo__problem_keys *keys = &v->origin->keys;
   const ambulo__body before = body_of(v->origin->model);
   ambulo_problem_definition own = *definition, *d = &own; /* with other contacts, maybe */
-  int moved = d->model != v->origin->model;
+  int moved = body_moved(v);
   int walks = keys->gait && (moved || memcmp(&v->rule, &keys->rule, sizeof v->rule) != 0);
   double longer = before.stature > 0.0 ? v->body.stature / before.stature : 1.0;
   double heavier = before.mass > 0.0 ? v->body.mass / before.mass : 1.0;
@@ -202,7 +203,8 @@ ambulo_status ambulo__variant_problem(const ambulo__variant *v, ambulo_diagnosti
                                       int checked, ambulo_problem **problem) {
   ambulo_problem_definition d = v->definition;
   const ambulo_model *m = v->origin->model;
-  if (!limits_moved(v) && !body_moved(v)) return make(v, &d, diagnostics, checked, problem);
+  if (!checked && !limits_moved(v) && !body_moved(v))
+    return make(v, &d, diagnostics, checked, problem);
   ambulo_model *model = NULL;
   ambulo_problem *made = NULL;
   ambulo_status status =

@@ -42,8 +42,9 @@ ambulo_reach *ambulo__variant_reaches(ambulo__variant *variant);
 ambulo_end_value *ambulo__variant_end_values(ambulo__variant *variant);
 double *ambulo__variant_array(const double *array_of_the_copy);
 
-/* The problem as it stands now; it owns its model. Not checked, numbers may be beyond the ranges of
- * members a little. Errors: as ambulo_problem_create. */
+/* The problem as it stands now. Checked, it owns its model and outlives all else; not checked, it
+ * may share the model, and numbers may be beyond the ranges of members a little: for differences.
+ * Errors: as ambulo_problem_create. */
 ambulo_status ambulo__variant_problem(const ambulo__variant *variant,
                                       ambulo_diagnostics *diagnostics, int checked,
                                       ambulo_problem **problem);

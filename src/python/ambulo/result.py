@@ -175,7 +175,7 @@ class Result(Owner):
         """What summary.json says (docs/results.md)."""
         out = ffi.new("char **")
         with Call() as call:
-            call(lib.ambulo_report_summary(self.problem._pointer, self._pointer, NULL, out))
+            call(lib.ambulo_report_summary(self.problem._pointer, self._pointer, NULL, NULL, out))
         text = text_of(out[0])
         lib.ambulo_text_free(out[0], NULL)
         return json.loads(text)
