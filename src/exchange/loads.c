@@ -11,7 +11,7 @@
 #include "exchange/export.h"
 
 #include "base/arithmetic.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "mechanics/pose.h"
 #include "people/ground_load.h"
 

@@ -6,8 +6,7 @@
 #include "people/stride.h"
 
 #include "base/arithmetic.h"
-#include "contact/effector.h"
-#include "contact/loading.h"
+#include "contact/contacts.h"
 
 #include <math.h>
 #include <string.h>

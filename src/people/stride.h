@@ -46,7 +46,7 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
                                     const ambulo_allocator *allocator, ambulo__stride *stride);
 void ambulo__stride_free(ambulo__stride *stride); /* accepts a zero-filled one */
 
-/* The contact of an effector (contact/effector.h) at time t in the stride, where and when it is in
+/* The contact of an effector (contact/contacts.h) at time t in the stride, where and when it is in
  * the motion itself; NULL if it is in the air. */
 const ambulo_contact *ambulo__stride_contact(const ambulo__stride *stride, int effector, double t);
 

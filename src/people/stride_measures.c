@@ -3,7 +3,7 @@
 
 #include "base/arithmetic.h"
 #include "contact/collision.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "mechanics/pose.h"
 #include "people/stride.h"
 #include "trajectory/quadrature.h"

@@ -34,7 +34,7 @@ double ambulo__economy_metabolic(const ambulo__economy *economy);
 
 /* integral of the forces on feet and patches over the motion as it is shown. */
 
-/* impulse [effectors][3] (contact/effector.h; without patches the feet's), N s, world axes: over
+/* impulse [effectors][3] (contact/contacts.h; without patches the feet's), N s, world axes: over
  * [0, T], or over the whole stride when its second step is the mirror image (people/stride.h). A
  * motion that is not finite gives numbers that are not. Nothing without ground reaction. Errors:
  * E_MEMORY.

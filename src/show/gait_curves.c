@@ -5,7 +5,7 @@
  * the model has them, then the coordinates with the largest torques; behind them, for a walk, the
  * curves of people. */
 #include "base/arithmetic.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "model/neutral_pose.h"
 #include "show/gait_chart.h"
 #include "show/svg.h"

@@ -4,7 +4,7 @@
 #include "ambulo/tools/compare.h"
 #include "ambulo/tools/report.h"
 #include "base/arithmetic.h"
-#include "contact/flight.h"
+#include "contact/row_families.h"
 #include "model/neutral_pose.h"
 #include "people/stride.h"
 

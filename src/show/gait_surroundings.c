@@ -8,9 +8,9 @@
 
 #include "base/arithmetic.h"
 #include "contact/collision.h"
-#include "contact/foot_outline.h"
-#include "contact/hold_times.h"
-#include "contact/step_edge.h"
+#include "contact/foot.h"
+#include "contact/load_profile.h"
+#include "contact/swing.h"
 #include "show/svg.h"
 
 #include <math.h>

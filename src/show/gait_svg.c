@@ -5,7 +5,7 @@
  */
 #include "show/gait_svg.h"
 
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "model/neutral_pose.h"
 #include "show/skeleton.h"
 #include "show/svg.h"

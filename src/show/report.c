@@ -4,7 +4,7 @@
 #include "ambulo/tools/load.h"
 #include "ambulo/tools/report.h"
 #include "base/sized.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "formats/atomic_file.h"
 #include "formats/motion_write.h"
 #include "model/model_check.h"

@@ -6,7 +6,7 @@
 #include "show/scene.h"
 
 #include "base/arithmetic.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "show/gait_svg.h"
 
 #include <math.h>

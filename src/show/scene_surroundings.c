@@ -7,8 +7,8 @@
 
 #include "base/arithmetic.h"
 #include "contact/collision.h"
-#include "contact/contact_frame.h"
-#include "contact/effector.h"
+#include "contact/foot.h"
+#include "contact/contacts.h"
 #include "show/gait_surroundings.h"
 #include "show/gait_svg.h"
 

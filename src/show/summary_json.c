@@ -7,7 +7,7 @@
 
 #include "ambulo/parameters.h"
 #include "formats/json_text.h"
-#include "contact/gait.h"
+#include "contact/row_families.h"
 #include "people/stride.h"
 
 #include <math.h>

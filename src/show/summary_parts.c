@@ -5,7 +5,7 @@
 
 #include "ambulo/tools/tools.h"
 #include "base/arithmetic.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "people/stride.h"
 #include "people/stride_measures.h"
 

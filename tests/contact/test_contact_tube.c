@@ -1,5 +1,5 @@
 /* Contact tubes at q = 0: left heel at (-0.05, 0.09), left toe at (0.17, 0.09) m, sole level. */
-#include "contact/bounded.h"
+#include "contact/rows.h"
 #include "support/row_fixture.h"
 #include "support/toed_body.h"
 

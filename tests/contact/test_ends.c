@@ -2,7 +2,14 @@
  *
  * Cubic B-spline, 4 intervals in 1 s: the largest weights at t = 0 are 3 K / T = 12 of the
  * first derivative and 9 (K / T)^2 = 144 of the second. */
+#include "ambulo/tools/tools.h"
+#include "contact/row_families.h"
+#include "model/model.h"
+#include "support/messages.h"
+#include "support/patched_walker.h"
+#include "support/planar_walker.h"
 #include "support/row_fixture.h"
+#include "support/test.h"
 
 static void set(row_fixture *f, int node, int coordinate, double q, double qd, double qdd) {
   *row_channel(f, node, ambulo__channel_q(&f->context.channels, coordinate)) = q;
@@ -79,9 +86,387 @@ static void mirrored_ends(void **state) {
   row_fixture_close(&f);
 }
 
-int main(void) {
+static int test_ends_tests(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(prescribed_values),
                                      cmocka_unit_test(periodic_ends),
                                      cmocka_unit_test(mirrored_ends)};
   return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+/* Footholds at T against those at 0, through ambulo_gait_expand: which numbers of steps go with
+ * which ends, and travels that do not fit. */
+
+enum { MOST_CONTACTS = 64 };
+
+typedef struct fixture {
+  ambulo_model *model;
+  ambulo_problem_definition definition;
+  ambulo_contact contacts[MOST_CONTACTS];
+} fixture;
+
+static void open_fixture(fixture *f, const ambulo_gait *gait) {
+  f->model = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &f->model),
+                   AMBULO_OK);
+  f->definition = ambulo_problem_definition_default();
+  f->definition.model = f->model;
+  f->definition.foot_strike = 1;
+  assert_int_equal(
+      ambulo_gait_expand(f->model, gait, f->contacts, MOST_CONTACTS, &f->definition.contact_count),
+      AMBULO_OK);
+  f->definition.contacts = f->contacts;
+  f->definition.duration = ambulo__gait_strike(gait, gait->steps);
+  f->definition.travel = ambulo__gait_place(gait, gait->steps);
+}
+
+static void expect(fixture *f, const char *phrase) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo__schedule_check_ends(&f->definition, list);
+  if (phrase) assert_message(list, 0, phrase);
+  assert_int_equal(status, phrase ? AMBULO_E_PROBLEM : AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(f->model);
+}
+
+static ambulo_gait walk(int steps) {
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = steps,
+                      .first_foot = 1,
+                      .step_length = 0.6,
+                      .step_time = 0.5,
+                      .step_width = 0.1,
+                      .foot_flat = 0.08,
+                      .heel_off = 0.38,
+                      .toe_off = 0.62,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
+  return gait;
+}
+
+/* also when the strike comes early; a foot that comes down after T is down at neither end */
+static void odd_steps_mirrored_even_steps_periodic(void **state) {
+  (void)state;
+  static const double strikes[] = {-0.07, 0.0};
+  for (int steps = 1; steps <= 5; steps++) {
+    for (int s = 0; s < 2; s++) {
+      for (int ends = AMBULO_ENDS_FREE; ends <= AMBULO_ENDS_MIRRORED; ends++) {
+        fixture f;
+        ambulo_gait gait = walk(steps);
+        gait.heel_strike = strikes[s];
+        open_fixture(&f, &gait);
+        f.definition.ends = (ambulo_ends)ends;
+        int fits = ends == AMBULO_ENDS_FREE || (ends == AMBULO_ENDS_MIRRORED) == (steps % 2);
+        expect(&f,
+               fits ? NULL
+                    : "mirrored ends go with an odd number of equal steps, periodic ends with an "
+                      "even number");
+      }
+    }
+  }
+}
+
+static void the_message_has_both_places(void **state) {
+  (void)state;
+  fixture f;
+  ambulo_gait gait = walk(1);
+  open_fixture(&f, &gait);
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  f.definition.travel = 0.5;
+  expect(&f,
+         "ends.travel: foot 'left' stands at (0, 0.05) m at t = 0.5 s, but mirrored ends with a "
+         "travel of 0.5 m put it at (-0.1, 0.05) m, from foot 'right' at (-0.6, -0.05) m at "
+         "t = 0; expected the same place");
+}
+
+/* footholds 0.02 m further left than the mirror plane allows */
+static void the_walk_straddles_the_mirror_plane(void **state) {
+  (void)state;
+  for (int ends = AMBULO_ENDS_PERIODIC; ends <= AMBULO_ENDS_MIRRORED; ends++) {
+    fixture f;
+    ambulo_gait gait = walk(ends == AMBULO_ENDS_PERIODIC ? 2 : 1);
+    open_fixture(&f, &gait);
+    for (int i = 0; i < f.definition.contact_count; i++) f.contacts[i].place[1] += 0.02;
+    f.definition.ends = (ambulo_ends)ends;
+    expect(&f, ends == AMBULO_ENDS_PERIODIC ? NULL : "put it at (0, 0.03) m");
+  }
+}
+
+static void unlike_steps_repeat_after_two(void **state) {
+  (void)state;
+  for (int steps = 1; steps <= 2; steps++) {
+    fixture f;
+    ambulo_gait gait = walk(steps);
+    gait.other_step_length = 0.7;
+    open_fixture(&f, &gait);
+    f.definition.ends = steps == 1 ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+    expect(&f, steps == 1 ? "expected the same place" : NULL);
+  }
+}
+
+/* places that enter no row say nothing */
+static void only_where_places_are_rows(void **state) {
+  (void)state;
+  for (int use = 0; use < 5; use++) {
+    fixture f;
+    ambulo_gait gait = walk(1);
+    open_fixture(&f, &gait);
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.travel = 0.5;
+    f.definition.foot_strike = use == 1;
+    f.definition.contact_tolerance = use == 2 ? 0.002 : 0.0;
+    f.definition.support = use == 3 ? AMBULO_SUPPORT_BOX : AMBULO_SUPPORT_OFF;
+    if (use == 4) f.definition.ground_reaction.kind = AMBULO_REACTION_SHARED;
+    expect(&f, use ? "expected the same place" : NULL);
+  }
+}
+
+/* a step up whose foot is turned or leans begins the next one as it began */
+static void footholds_of_any_kind_go_on_as_they_began(void **state) {
+  (void)state;
+  static const struct {
+    int number; /* which is changed: 0 height, 1 heading, 2 to 4 the normal */
+    double first, last;
+    const char *phrase;
+  } cases[] = {
+      {0, 0.0, 0.2, NULL},   {0, 0.1, 0.2, "ends.rise: foot 'right' stands 0.2 m high"},
+      {1, 0.1, -0.1, NULL},  {1, 0.1, 0.1, "is turned by 0.1 rad at t = 0.5 s, and by -0.1 rad"},
+      {2, -0.1, -0.1, NULL}, {2, -0.1, 0.0, "expected the same direction"},
+      {3, 0.1, -0.1, NULL},  {3, 0.1, 0.1, "expected the same direction"},
+      {4, 1.0, 2.0, NULL}}; /* of any length */
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    fixture f;
+    ambulo_gait gait = walk(1);
+    open_fixture(&f, &gait);
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.rise = 0.2;
+    for (int i = 0; i < f.definition.contact_count; i++) {
+      ambulo_contact *c = &f.contacts[i];
+      /* the foot ahead is down at 0 as the left one, at T as the right one; the one behind it */
+      int last = c->to >= 0.5 && c->place[0] > 0.5, before = c->place[0] < -0.3;
+      double rise = last ? 0.2 : before ? -0.2 : 0.0;
+      double *number[5] = {&c->place[2], &c->heading, &c->normal[0], &c->normal[1], &c->normal[2]};
+      c->place[2] = rise;
+      c->normal[2] = 1.0;
+      if (c->from <= 0.0 && !before && !last)
+        *number[cases[k].number] = cases[k].number ? cases[k].first : rise + cases[k].first;
+      if (last) *number[cases[k].number] = cases[k].last;
+    }
+    expect(&f, cases[k].phrase);
+  }
+}
+
+/* a seat that goes on stands where it stood, moved on; of a mirrored motion on the other side */
+static void patches_go_on_too(void **state) {
+  (void)state;
+  static const double place[2][2] = {{0.5, 0.2}, {0.5, -0.2}};
+  for (int mirrored = 0; mirrored < 2; mirrored++) {
+    for (int off = 0; off < 4; off++) {
+      const ambulo_contact contacts[] = {OF_PATCH(HAND_R, 0.0, 0.4, {0.0, 0.2, 1.0}),
+                                         OF_PATCH(HAND_R, 0.7, 1.0, {0.5, 0.2, 1.0})};
+      fixture f = {.model = patched_walker(0)};
+      memcpy(f.contacts, contacts, sizeof contacts);
+      f.definition = ambulo_problem_definition_default();
+      f.definition.model = f.model;
+      f.definition.foot_strike = 1;
+      f.definition.contacts = f.contacts;
+      f.definition.contact_count = 2;
+      f.definition.travel = 0.5;
+      f.definition.ends = mirrored ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+      memcpy(f.contacts[1].place, place[mirrored], sizeof place[mirrored]);
+      if (mirrored) f.contacts[1].patch = HAND_L;
+      if (off == 1) f.contacts[1].place[0] += 0.1;
+      if (off == 2) f.contacts[1].place[2] += 0.1;
+      if (off == 3) f.contacts[1].normal[0] = -1.0;
+      static const char *const said[] = {NULL, "ends.travel: patch 'hand_",
+                                         "ends.rise: patch 'hand_", "contacts: patch 'hand_"};
+      expect(&f, said[off]);
+    }
+  }
+}
+
+static int test_schedule_ends_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(odd_steps_mirrored_even_steps_periodic),
+                                     cmocka_unit_test(the_message_has_both_places),
+                                     cmocka_unit_test(the_walk_straddles_the_mirror_plane),
+                                     cmocka_unit_test(unlike_steps_repeat_after_two),
+                                     cmocka_unit_test(only_where_places_are_rows),
+                                     cmocka_unit_test(footholds_of_any_kind_go_on_as_they_began),
+                                     cmocka_unit_test(patches_go_on_too)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+/* Each contradiction of end values is refused by name, and sound ones are not. */
+
+typedef struct test_end_check_fixture {
+  ambulo_model *model;
+  ambulo_problem_definition definition;
+  ambulo_contact contact;
+  ambulo_term term;
+} test_end_check_fixture;
+
+static void test_end_check_open_fixture(test_end_check_fixture *f) {
+  f->model = planar_walker_create();
+  assert_non_null(f->model);
+  f->definition = ambulo_problem_definition_default();
+  f->term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  f->contact = (ambulo_contact){.foot = 0, .mode = AMBULO_CONTACT_FLAT, .from = 0.0, .to = 1.0};
+  f->definition.model = f->model;
+  f->definition.terms = &f->term;
+  f->definition.term_count = 1;
+}
+
+/* `phrase` NULL: accepted */
+static void test_end_check_expect(test_end_check_fixture *f, const char *phrase) {
+  ambulo_problem *problem = NULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_problem_create(&f->definition, NULL, list, &problem);
+  if (phrase) {
+    assert_int_equal(status, AMBULO_E_PROBLEM);
+    assert_message(list, 0, phrase);
+  } else {
+    if (status) assert_message(list, 0, "nothing");
+    assert_int_equal(status, AMBULO_OK);
+  }
+  ambulo_problem_free(problem);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(f->model);
+}
+
+static void one_value_an_end(void **state) {
+  (void)state;
+  test_end_check_fixture f;
+  const ambulo_end_value twice[2] = {{4, 0, 1, 0.2}, {4, 0, 1, 0.3}};
+  test_end_check_open_fixture(&f);
+  f.definition.end_values = twice;
+  f.definition.end_value_count = 2;
+  test_end_check_expect(&f,
+                        "the final value of knee_angle_r is prescribed twice: 0.2 rad and 0.3 rad");
+}
+
+static void mirrored_values_follow(void **state) {
+  (void)state;
+  const ambulo_end_value ends[2] = {{4, 0, 0, 0.2}, {7, 0, 1, 0.3}};
+  for (int good = 0; good < 2; good++) {
+    test_end_check_fixture f;
+    ambulo_end_value values[2] = {ends[0], ends[1]};
+    if (good) values[1].value = 0.2;
+    test_end_check_open_fixture(&f);
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.travel = 0.6;
+    f.definition.end_values = values;
+    f.definition.end_value_count = 2;
+    test_end_check_expect(
+        &f, good ? NULL
+                 : "the final value of knee_angle_l is 0.3 rad, but mirrored ends with a travel "
+                   "of 0.6 m make it 0.2 rad from the initial value of knee_angle_r, 0.2 rad");
+  }
+}
+
+static void periodic_rates_follow(void **state) {
+  (void)state;
+  const ambulo_end_value values[2] = {{4, 1, 0, 1.0}, {4, 1, 1, -1.0}};
+  for (int order = 0; order < 2; order++) {
+    test_end_check_fixture f;
+    test_end_check_open_fixture(&f);
+    f.definition.ends = AMBULO_ENDS_PERIODIC;
+    f.definition.ends_order = order;
+    f.definition.end_values = values;
+    f.definition.end_value_count = 2;
+    test_end_check_expect(
+        &f, order ? "the final rate of knee_angle_r is -1 rad/s, but periodic ends" : NULL);
+  }
+}
+
+/* a value within its own range may be beyond what the other half of the stride allows its partner
+ */
+static void mirrored_values_keep_the_partners_limits(void **state) {
+  (void)state;
+  const ambulo_end_value value = {4, 0, 0, 0.6};
+  for (int mirrored = 0; mirrored < 2; mirrored++) {
+    test_end_check_fixture f;
+    test_end_check_open_fixture(&f);
+    f.model->coordinates[7].range[1] = 0.5;
+    f.definition.joint_limits = AMBULO_LIMIT_NODES;
+    f.definition.ends = mirrored ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+    f.definition.end_values = &value;
+    f.definition.end_value_count = 1;
+    test_end_check_expect(
+        &f, mirrored ? "the initial value of knee_angle_r is 0.6 rad; expected -inf to 0.5 rad, "
+                       "its limits (the upper end by the upper limit of knee_angle_l, 0.5, in "
+                       "the mirrored half)"
+                     : NULL);
+  }
+}
+
+/* two steps of 0.6 m need a range of 1.2 m */
+static void a_mirrored_stride_needs_room_for_both_steps(void **state) {
+  (void)state;
+  for (int wide = 0; wide < 2; wide++) {
+    test_end_check_fixture f;
+    test_end_check_open_fixture(&f);
+    f.model->coordinates[0].range[0] = 0.0;
+    f.model->coordinates[0].range[1] = wide ? 1.2 : 1.1;
+    f.definition.joint_limits = AMBULO_LIMIT_NODES;
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.travel = 0.6;
+    test_end_check_expect(
+        &f, wide ? NULL
+                 : "pelvis_tx has to move by 0.6 m from beginning to end; its range, 0 to 0.5 m "
+                   "(the upper end by the upper limit of pelvis_tx, 1.1, in the mirrored half), "
+                   "is only 0.5 m wide");
+  }
+}
+
+/* q = 0 in all coordinates puts the pelvis on the ground: corners far below */
+static void a_prescribed_state_respects_the_ground(void **state) {
+  (void)state;
+  for (int lifted = 0; lifted < 2; lifted++) {
+    test_end_check_fixture f;
+    ambulo_end_value values[WALKER_COORDINATES];
+    test_end_check_open_fixture(&f);
+    for (int i = 0; i < WALKER_COORDINATES; i++) {
+      ambulo_end_value value = {i, 0, 0, 0.0};
+      values[i] = value;
+    }
+    values[1].value = lifted ? 0.9 : 0.85; /* legs of 0.41 + 0.43 m, soles 0.06 m lower */
+    f.definition.ground_penetration = 1;
+    f.definition.contacts = &f.contact;
+    f.definition.contact_count = 1;
+    f.definition.end_values = values;
+    f.definition.end_value_count = WALKER_COORDINATES;
+    test_end_check_expect(
+        &f, lifted ? NULL
+                   : "the initial state puts right_heel (foot 'right') 0.05 m below the ground "
+                     "at t = 0 s, where the schedule has it in contact");
+  }
+}
+
+/* one coordinate left open: nothing can be said before solving */
+static void an_open_chain_is_left_to_the_solver(void **state) {
+  (void)state;
+  test_end_check_fixture f;
+  const ambulo_end_value value = {1, 0, 0, 3.0};
+  test_end_check_open_fixture(&f);
+  f.definition.ground_penetration = 1;
+  f.definition.contacts = &f.contact;
+  f.definition.contact_count = 1;
+  f.definition.end_values = &value;
+  f.definition.end_value_count = 1;
+  test_end_check_expect(&f, NULL);
+}
+
+static int test_end_check_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_value_an_end),
+                                     cmocka_unit_test(mirrored_values_follow),
+                                     cmocka_unit_test(periodic_rates_follow),
+                                     cmocka_unit_test(mirrored_values_keep_the_partners_limits),
+                                     cmocka_unit_test(a_mirrored_stride_needs_room_for_both_steps),
+                                     cmocka_unit_test(a_prescribed_state_respects_the_ground),
+                                     cmocka_unit_test(an_open_chain_is_left_to_the_solver)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_ends_tests() + test_schedule_ends_tests() + test_end_check_tests();
 }

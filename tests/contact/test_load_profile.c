@@ -1,9 +1,183 @@
-/* Profiles and windows: values, no overshoot, and slopes by differences. */
-#include "contact/load_profile.h"
-
+/* Where a foot is in its stride, in motions that repeat and in one that does not. */
 #include "base/lanes.h"
+#include "contact/load_profile.h"
+#include "contact/phases.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
+
+static ambulo_contact held(int foot, ambulo_contact_mode mode, double from, double to) {
+  return (ambulo_contact){.foot = foot, .mode = mode, .from = from, .to = to, .patch = -1};
+}
+
+static ambulo_problem_definition walk_of(ambulo_model *model, ambulo_ends ends, double duration,
+                                         const ambulo_contact *contacts, int count) {
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  d.model = model;
+  d.duration = duration;
+  d.ends = ends;
+  d.contacts = contacts;
+  d.contact_count = count;
+  return d;
+}
+
+/* one step of 0.5 s: the left foot strikes at 0, the right did half a stride before */
+static void test_a_mirrored_step(void **state) {
+  (void)state;
+  ambulo_model *model = planar_walker_create();
+  const ambulo_contact contacts[] = {held(1, AMBULO_CONTACT_HEEL, 0, 0.1),
+                                     held(1, AMBULO_CONTACT_FLAT, 0.1, 0.5),
+                                     held(0, AMBULO_CONTACT_TOE, 0, 0.12)};
+  ambulo_problem_definition d = walk_of(model, AMBULO_ENDS_MIRRORED, 0.5, contacts, 3);
+  ambulo__stride_now now;
+  for (double t = 0; t < 0.5; t += 0.049) {
+    assert_int_equal(ambulo__stride_at(&d, 1, t, &now), 1);
+    assert_close(now.share, t, 1e-12);
+    assert_close(now.begin[1], 1.0, 1e-12);
+    assert_int_equal(now.contact[0], 0);
+    assert_int_equal(now.contact[1], 0);
+    assert_int_equal(ambulo__stride_at(&d, 0, t, &now), 1);
+    assert_close(now.share, 0.5 + t, 1e-12);
+    assert_close(now.begin[0], -0.5, 1e-12);
+  }
+  assert_int_equal(ambulo__stride_at(&d, 0, 0.5, &now), 1);
+  assert_close(now.share, 0, 1e-12);
+  ambulo_model_free(model);
+}
+
+static void test_two_unlike_steps(void **state) {
+  (void)state;
+  ambulo_model *model = planar_walker_create();
+  const ambulo_contact contacts[] = {held(0, AMBULO_CONTACT_FLAT, 0.3, 0.9),
+                                     held(1, AMBULO_CONTACT_FLAT, 0, 0.4),
+                                     held(1, AMBULO_CONTACT_FLAT, 0.8, 1)};
+  ambulo_problem_definition d = walk_of(model, AMBULO_ENDS_PERIODIC, 1, contacts, 3);
+  ambulo__stride_now now;
+  assert_int_equal(ambulo__stride_at(&d, 0, 0.25, &now), 1);
+  assert_close(now.share, 0.95, 1e-12);
+  assert_int_equal(ambulo__stride_at(&d, 1, 0.25, &now), 1); /* came down at -0.2 */
+  assert_close(now.share, 0.45, 1e-12);
+  assert_int_equal(now.contact[0], 2);
+  assert_int_equal(now.contact[1], 2);
+  d.ends = AMBULO_ENDS_FREE;
+  assert_int_equal(ambulo__stride_at(&d, 0, 0.5, &now), 0);
+  ambulo_model_free(model);
+}
+
+static void test_a_foot_that_stays_down_has_no_stride(void **state) {
+  (void)state;
+  ambulo_model *model = planar_walker_create();
+  const ambulo_contact contact = held(0, AMBULO_CONTACT_FLAT, 0, 1);
+  ambulo_problem_definition d = walk_of(model, AMBULO_ENDS_PERIODIC, 1, &contact, 1);
+  ambulo__stride_now now;
+  assert_int_equal(ambulo__stride_at(&d, 0, 0.5, &now), 0);
+  assert_int_equal(ambulo__stride_at(&d, 1, 0.5, &now), 0);
+  ambulo_model_free(model);
+}
+
+static int test_stride_clock_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_mirrored_step),
+                                     cmocka_unit_test(test_two_unlike_steps),
+                                     cmocka_unit_test(test_a_foot_that_stays_down_has_no_stride)};
+  return cmocka_run_group_tests_name("gait/stride_clock", tests, NULL, NULL);
+}
+
+/* Windows of what is held: their ramps, their ends, their events. */
+
+static ambulo_hold test_hold_times_held(double from, double to) {
+  ambulo_hold h = ambulo_hold_default();
+  h.name = "box";
+  h.hand[0] = 0;
+  h.mass = 1;
+  h.from = from;
+  h.to = to;
+  h.ramp = 0.2;
+  return h;
+}
+
+static void test_a_window(void **state) {
+  (void)state;
+  ambulo_hold h = test_hold_times_held(0.5, 1.5);
+  const double times[] = {0, 0.5, 0.55, 0.6, 0.7, 1, 1.3, 1.4, 1.5, 2};
+  const double want[] = {0, 0, 0.15625, 0.5, 1, 1, 1, 0.5, 0, 0};
+  for (int i = 0; i < 10; i++) assert_close(ambulo__hold_window(&h, 2, times[i]), want[i], 1e-12);
+}
+
+/* what is held from the beginning, or to the end, is held whole there */
+static void test_open_ends(void **state) {
+  (void)state;
+  ambulo_hold all = test_hold_times_held(0, INFINITY), first = test_hold_times_held(-1, 1),
+              last = test_hold_times_held(1, 2);
+  double time[4];
+  for (int i = 0; i <= 20; i++) assert_close(ambulo__hold_window(&all, 2, 0.1 * i), 1, 0);
+  assert_int_equal(ambulo__hold_events(&all, 2, time), 0);
+  assert_close(ambulo__hold_window(&first, 2, 0), 1, 0);
+  assert_close(ambulo__hold_window(&first, 2, 0.9), 0.5, 1e-12);
+  assert_int_equal(ambulo__hold_events(&first, 2, time), 2);
+  assert_close(time[0], 0.8, 1e-15);
+  assert_close(time[1], 1, 0);
+  assert_close(ambulo__hold_window(&last, 2, 2), 1, 0);
+  assert_int_equal(ambulo__hold_events(&last, 2, time), 2);
+  assert_close(time[1], 1.2, 1e-15);
+}
+
+/* slopes of the window by the time and by its numbers, against differences */
+static void test_slopes(void **state) {
+  (void)state;
+  const ambulo_hold windows[] = {test_hold_times_held(0.5, 1.5), test_hold_times_held(-1, 1.5),
+                                 test_hold_times_held(0.5, INFINITY),
+                                 test_hold_times_held(0.5, 0.93)};
+  const double step = 1e-6;
+  for (int i = 0; i < 4; i++) {
+    for (double t = 0.013; t < 2.0; t += 0.03) {
+      ambulo__hold_slopes w = ambulo__hold_slopes_at(&windows[i], 2, t);
+      double got[] = {w.by_time, w.by_from, w.by_to, w.by_ramp}, value[2];
+      assert_close(w.value, ambulo__hold_window(&windows[i], 2, t), 0);
+      for (int number = 0; number < 4; number++) {
+        for (int side = 0; side < 2; side++) {
+          double by = side ? step : -step;
+          ambulo_hold h = windows[i];
+          if (number == 1) h.from += by;
+          if (number == 2) h.to += by;
+          if (number == 3) h.ramp += by;
+          value[side] = ambulo__hold_window(&h, 2, number == 0 ? t + by : t);
+        }
+        assert_close(got[number], (value[1] - value[0]) / (2 * step), 1e-7);
+      }
+    }
+  }
+}
+
+/* ends of ramps are nodes of a grid on events, and no knots */
+static void test_events_of_the_grid(void **state) {
+  (void)state;
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  ambulo_model *model = planar_walker_create();
+  ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  ambulo_hold h = test_hold_times_held(0.5, 1.5);
+  ambulo__events events;
+  d.model = model;
+  d.duration = 2;
+  d.holds = &h;
+  d.hold_count = 1;
+  assert_int_equal(ambulo__events_create(&d, AMBULO__EVENTS_OF_ROWS, &a, &events), AMBULO_OK);
+  const double want[] = {0.5, 0.7, 1.3, 1.5};
+  assert_int_equal(events.count, 4);
+  for (int i = 0; i < 4; i++) assert_close(events.time[i], want[i], 1e-15);
+  ambulo__free(&a, events.time);
+  assert_int_equal(ambulo__events_create(&d, AMBULO__EVENTS_OF_CONTACTS, &a, &events), AMBULO_OK);
+  assert_int_equal(events.count, 0);
+  ambulo__free(&a, events.time);
+  ambulo_model_free(model);
+}
+
+static int test_hold_times_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_window), cmocka_unit_test(test_slopes),
+                                     cmocka_unit_test(test_open_ends),
+                                     cmocka_unit_test(test_events_of_the_grid)};
+  return cmocka_run_group_tests_name("gait/hold_times", tests, NULL, NULL);
+}
+
+/* Profiles and windows: values, no overshoot, and slopes by differences. */
 
 static const double points[][2] = {{0.1, -1}, {0.3, 2}, {0.35, 2.5}, {0.8, 2.5}, {0.9, 0}};
 enum { point_count = 5 };
@@ -52,7 +226,7 @@ static ambulo_problem_definition strides(const ambulo_model *model, ambulo_conta
 
 static void test_a_clutch_opens_and_closes(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_contact contact[2];
   ambulo_device v = ambulo_device_default(AMBULO_DEVICE_SPRING);
   ambulo_problem_definition d = strides(model, contact, &v);
@@ -98,7 +272,7 @@ static void test_a_clutch_opens_and_closes(void **state) {
 
 static void test_profiles_and_padding(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_contact contact[2];
   ambulo_device v = ambulo_device_default(AMBULO_DEVICE_ACTUATOR);
   ambulo_problem_definition d = strides(model, contact, &v);
@@ -127,9 +301,13 @@ static void test_profiles_and_padding(void **state) {
   ambulo_model_free(model);
 }
 
-int main(void) {
+static int test_load_profile_tests(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_curves_go_through_their_points),
                                      cmocka_unit_test(test_a_clutch_opens_and_closes),
                                      cmocka_unit_test(test_profiles_and_padding)};
   return cmocka_run_group_tests_name("device/told", tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_stride_clock_tests() + test_hold_times_tests() + test_load_profile_tests();
 }

@@ -5,7 +5,7 @@
 
 static void test_points_agree_with_the_mechanics(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_mechanics *mechanics = NULL;
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
   ambulo__pose pose;
@@ -39,7 +39,7 @@ static void test_a_point_of_the_world_stays(void **state) {
 
 static void test_memory_may_fail(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo__pose pose = {.model = NULL};
   fail_alloc memory = fail_alloc_at(0);
   ambulo_allocator allocator = fail_alloc_hook(&memory);

@@ -288,7 +288,7 @@ static void check(const ambulo_model *model, const char *names, const char *cons
 
 static void a_planar_model_feels_its_plane(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   int axis = -1;
   assert_int_equal(ambulo__idle_axis(model, NULL, &axis), AMBULO_OK);
   assert_int_equal(axis, 2);

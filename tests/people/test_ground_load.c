@@ -18,7 +18,7 @@ typedef struct fixture {
 } fixture;
 
 static fixture open_fixture(void) {
-  fixture f = {.model = walker_create(), .options = ambulo_inverse_options_default()};
+  fixture f = {.model = planar_walker_create(), .options = ambulo_inverse_options_default()};
   f.right = ambulo_model_find_foot(f.model, "right");
   assert_true(f.right >= 0 && ambulo_model_find_foot(f.model, "left") >= 0);
   return f;

@@ -34,7 +34,7 @@ static void row_of(one_row *r) {
 /* a force at a point of the foot does the work J' f (J by the gradient of the point) */
 static void virtual_work(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_mechanics *mechanics = NULL;
   int d = ambulo_model_coordinate_count(model);
   double q[MOST], zero[MOST] = {0}, points[192], weights[192] = {0}, work[MOST], rest[2 * MOST];
@@ -69,7 +69,7 @@ static void virtual_work(void **state) {
 static void the_forces_that_are_needed_leave_nothing(void **state) {
   (void)state;
   static const double times[1] = {0.0};
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_mechanics *mechanics = NULL;
   int d = ambulo_model_coordinate_count(model);
   double q[MOST] = {0}, qd[MOST], qdd[MOST], tau[MOST], wrench[6], zmp[3], center[3], foot[6];
@@ -129,7 +129,7 @@ static void the_forces_that_are_needed_leave_nothing(void **state) {
  * force acts on the middle of the foot */
 static void poses_and_places(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_mechanics *mechanics = NULL;
   int d = ambulo_model_coordinate_count(model);
   double q[MOST], zero[MOST] = {0}, wrench[6], center[3], feet[6], points[192],
@@ -166,7 +166,7 @@ static void poses_and_places(void **state) {
 static void pressure_comes_back(void **state) {
   (void)state;
   static const double force[3] = {30.0, 600.0, -20.0}, point[3] = {1.2, 0.4, 0.1};
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   double cop[6], free_moment[2];
   one_row r;
   row_of(&r);

@@ -183,7 +183,7 @@ static int test_stride_tests(void) {
 
 /* foot 0 on the heel to 0.2 s, then flat to 0.6 s; foot 1 down to `early`, and again from `late` */
 static int strikes_from(ambulo_ends ends, double early, double late, ambulo__strike *strikes) {
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_problem *problem = NULL;
   ambulo_problem_definition d = ambulo_problem_definition_default();
   ambulo_contact contacts[] = {{.foot = 0, .mode = AMBULO_CONTACT_HEEL, .from = 0.0, .to = 0.2},
@@ -255,7 +255,7 @@ static void free_ends(void **state) {
 /* a schedule may list the end of the cycle first: the strike stays at its beginning */
 static void the_earlier_time_stays(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_problem *problem = NULL;
   ambulo_problem_definition d = ambulo_problem_definition_default();
   ambulo_contact contacts[] = {{.foot = 0, .mode = AMBULO_CONTACT_FLAT, .from = 1.0, .to = 1.0},

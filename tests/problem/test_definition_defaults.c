@@ -33,7 +33,7 @@ typedef struct walk {
 
 static void make(walk *w) {
   memset(w, 0, sizeof *w);
-  w->model = walker_create();
+  w->model = planar_walker_create();
   w->definition = ambulo_problem_definition_default();
   ambulo_problem_definition *d = &w->definition;
   ambulo_gait gait = ambulo_gait_default();

@@ -184,7 +184,7 @@ static void the_hash_sees_tendons(void **state) {
 /* where an arc has to be is in no other row: of two footholds one behind the other too */
 static void the_hash_sees_where_arcs_roll(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   unsigned long long hashes[3];
   for (int i = 0; i < 2; i++) {
     model->feet[i].has_arcs = 1;
@@ -229,7 +229,7 @@ static void the_hash_sees_how_far_feet_are_apart(void **state) {
 static void limits_are_those_of_both_halves(void **state) {
   (void)state;
   enum { KNEE_R = 4, KNEE_L = 7 };
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_problem *problem = NULL;
   ambulo_limits l;
   model->coordinates[KNEE_R].range[0] = -1.5;
@@ -251,7 +251,7 @@ static void limits_are_those_of_both_halves(void **state) {
 /* also when only one request fails, and when the problem would be refused for another reason */
 static void a_mirrored_problem_survives_failed_allocations(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   const ambulo_end_value twice[2] = {{4, 0, 1, 0.2}, {4, 0, 1, 0.3}};
   ambulo_problem_definition d = ambulo_problem_definition_default();
   ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);

@@ -233,7 +233,7 @@ static void two_results_and_a_measured_motion(void **state) {
   const char *folders[2] = {result_folder(state, "one"), result_folder(state, "two")};
   const char *page = scratch_path(state, "page.html");
   ambulo_page_options options = ambulo_page_options_default();
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   options.motion = inside(folders[0], "motion.csv");
   options.body = model;
   options.to = 0.25;
@@ -345,7 +345,7 @@ static void a_full_disk(void **state) {
 static void memory_may_run_out_anywhere(void **state) {
   const char *folder = result_folder(state, "walk"), *page = scratch_path(state, "page.html");
   ambulo_page_options options = ambulo_page_options_default();
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   options.motion = inside(folder, "motion.csv");
   options.body = model;
   long k = 0;

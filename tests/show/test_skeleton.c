@@ -8,7 +8,7 @@
 
 static void test_walker_has_legs_feet_and_a_head(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo__skeleton s;
   assert_int_equal(ambulo__skeleton_create(model, NULL, &s), AMBULO_OK);
   int count[3] = {0, 0, 0}, heads = 0;

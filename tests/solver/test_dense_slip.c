@@ -131,7 +131,7 @@ static void a_coarse_grid_still_has_a_place_to_start_from(void **state) {
 /* Both feet flat; the left one comes 0.3 m further within its flight, on four intervals of 1 s. */
 static void open_leap(dense_fixture *f, double down, double up) {
   memset(f, 0, sizeof *f);
-  f->model = walker_create();
+  f->model = planar_walker_create();
   ambulo_contact contacts[] = {{0, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.0, 0.0}},
                                {1, AMBULO_CONTACT_FLAT, 0.0, 0.2, .place = {0.0, 0.0}},
                                {1, AMBULO_CONTACT_FLAT, down, up, .place = {0.3, 0.0}}};

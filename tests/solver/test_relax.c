@@ -174,7 +174,7 @@ static void the_travel_alone_is_offered_where_it_suffices(void **state) {
                                         {"lean", 0.0, 0.0, 0.0, {0.0, 0.0, 1.0}, 0},
                                         {"tilt", 1.0, 1.0, 0.1, {0.0, 0.0, 1.0}, 0}};
   sliders *s = calloc(1, sizeof *s);
-  s->model = walker_create();
+  s->model = planar_walker_create();
   ambulo_problem_definition d = ambulo_problem_definition_default();
   d.model = s->model;
   d.intervals = 4;

@@ -62,7 +62,7 @@ enum { FACTORS = sizeof factors / sizeof *factors };
 
 static void torque_squared_at_every_scale(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   ambulo_term built_in = ambulo_term_default(AMBULO_TORQUE_SQUARED);
   ambulo_problem *problem = step_with(model, &built_in, 1);
   double least = solve(problem, "built-in", 1.0);
@@ -96,7 +96,7 @@ static void torque_squared_at_every_scale(void **state) {
 /* beside a little of a built-in term, so that the optimum is one point */
 static void linear_terms_at_every_scale(void **state) {
   (void)state;
-  ambulo_model *model = walker_create();
+  ambulo_model *model = planar_walker_create();
   double first = 0.0;
   for (int i = 0; i < FACTORS; i++) {
     wide w = {factors[i], 0};

@@ -2,7 +2,7 @@
 #ifndef TEST_CONTACT_INDEX_H
 #define TEST_CONTACT_INDEX_H
 
-#include "contact/loading.h"
+#include "contact/contacts.h"
 #include "problem/nlp.h"
 
 /* index of the contact; -1: none */

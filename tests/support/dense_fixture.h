@@ -15,7 +15,7 @@ typedef struct dense_fixture {
 
 static inline void dense_open_on(dense_fixture *f, int intervals, ambulo_grid grid) {
   memset(f, 0, sizeof *f);
-  f->model = walker_create();
+  f->model = planar_walker_create();
   assert_non_null(f->model);
   f->problem = walker_problem_on(f->model, intervals, grid);
   assert_non_null(f->problem);

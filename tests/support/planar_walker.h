@@ -16,7 +16,7 @@ enum { WALKER_LINKS = 10, WALKER_COORDINATES = 9, WALKER_POINTS = 5 };
 static const double walker_pi = 3.14159265358979323846;
 static const double walker_step_time = 0.55, walker_step_length = 0.7;
 
-static inline ambulo_link walker_link(const char *name, int parent, ambulo_joint_type type,
+static inline ambulo_link planar_walker_link(const char *name, int parent, ambulo_joint_type type,
                                       double theta, double a, double alpha, double mass) {
   ambulo_link link = ambulo_link_default();
   link.name = name;
@@ -33,22 +33,22 @@ static inline ambulo_link walker_link(const char *name, int parent, ambulo_joint
   return link;
 }
 
-static inline ambulo_model *walker_create(void) {
+static inline ambulo_model *planar_walker_create(void) {
   static const char *const names[WALKER_COORDINATES] = {
       "pelvis_tx",     "pelvis_ty",     "pelvis_tilt",  "hip_flexion_r", "knee_angle_r",
       "ankle_angle_r", "hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
   const double quarter = walker_pi / 2.0;
   ambulo_link links[WALKER_LINKS] = {
-      walker_link("ground", -1, AMBULO_FIXED, quarter, 0.0, quarter, 0.0),
-      walker_link("forward", 0, AMBULO_PRISMATIC, -quarter, 0.0, -quarter, 0.0),
-      walker_link("up", 1, AMBULO_PRISMATIC, -quarter, 0.0, quarter, 0.0),
-      walker_link("trunk", 2, AMBULO_REVOLUTE, 0.0, 0.0, 0.0, 45.0),
-      walker_link("thigh_r", 3, AMBULO_REVOLUTE, -quarter, 0.41, 0.0, 8.0),
-      walker_link("shank_r", 4, AMBULO_REVOLUTE, 0.0, 0.43, 0.0, 3.5),
-      walker_link("foot_r", 5, AMBULO_REVOLUTE, quarter, 0.0, 0.0, 1.2),
-      walker_link("thigh_l", 3, AMBULO_REVOLUTE, -quarter, 0.41, 0.0, 8.0),
-      walker_link("shank_l", 7, AMBULO_REVOLUTE, 0.0, 0.43, 0.0, 3.5),
-      walker_link("foot_l", 8, AMBULO_REVOLUTE, quarter, 0.0, 0.0, 1.2)};
+      planar_walker_link("ground", -1, AMBULO_FIXED, quarter, 0.0, quarter, 0.0),
+      planar_walker_link("forward", 0, AMBULO_PRISMATIC, -quarter, 0.0, -quarter, 0.0),
+      planar_walker_link("up", 1, AMBULO_PRISMATIC, -quarter, 0.0, quarter, 0.0),
+      planar_walker_link("trunk", 2, AMBULO_REVOLUTE, 0.0, 0.0, 0.0, 45.0),
+      planar_walker_link("thigh_r", 3, AMBULO_REVOLUTE, -quarter, 0.41, 0.0, 8.0),
+      planar_walker_link("shank_r", 4, AMBULO_REVOLUTE, 0.0, 0.43, 0.0, 3.5),
+      planar_walker_link("foot_r", 5, AMBULO_REVOLUTE, quarter, 0.0, 0.0, 1.2),
+      planar_walker_link("thigh_l", 3, AMBULO_REVOLUTE, -quarter, 0.41, 0.0, 8.0),
+      planar_walker_link("shank_l", 7, AMBULO_REVOLUTE, 0.0, 0.43, 0.0, 3.5),
+      planar_walker_link("foot_l", 8, AMBULO_REVOLUTE, quarter, 0.0, 0.0, 1.2)};
   links[3].com[1] = 0.3;
   ambulo_coordinate coordinates[WALKER_COORDINATES];
   for (int i = 0; i < WALKER_COORDINATES; i++) {

@@ -14,7 +14,7 @@
 
 typedef struct poison {
   int node;     /* where; -1: nowhere */
-  int entry;    /* -1: the value; else a channel, as in contact/channels.h */
+  int entry;    /* -1: the value; else a channel, as in contact/rows.h */
   double value; /* NAN or infinite */
   int calls, after;
   int coordinates;

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_ROW_FIXTURE_H
 #define AMBULO_TESTS_ROW_FIXTURE_H
 
-#include "contact/gait.h"
+#include "contact/row_families.h"
 #include "model/neutral_pose.h"
 #include "support/walker_fixture.h"
 

@@ -13,7 +13,7 @@ typedef struct walk {
 } walk;
 
 static inline void walk_open(walk *w, int intervals) {
-  w->model = walker_create();
+  w->model = planar_walker_create();
   assert_non_null(w->model);
   w->problem = walker_problem(w->model, intervals);
   assert_non_null(w->problem);

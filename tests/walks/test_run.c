@@ -8,7 +8,7 @@
 #include "support/shared_data.h"
 
 #include "ambulo/tools/tools.h"
-#include "contact/flight.h"
+#include "contact/row_families.h"
 #include "mechanics/pose.h"
 #include "problem/nlp.h"
 

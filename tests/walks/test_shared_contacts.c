@@ -2,8 +2,8 @@
  * is compared with mechanics by other routes. */
 #include "support/contact_index.h"
 #include "mechanics/lagrangian.h"
-#include "contact/effector.h"
-#include "contact/stance.h"
+#include "contact/contacts.h"
+#include "contact/contact_load.h"
 #include "mechanics/pose.h"
 #include "people/stride_measures.h"
 #include "support/shared_fixture.h"

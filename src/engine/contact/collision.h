@@ -2,7 +2,7 @@
 #ifndef AMBULO_CONTACT_COLLISION_H
 #define AMBULO_CONTACT_COLLISION_H
 
-#include "contact/gait.h"
+#include "contact/row_families.h"
 
 /* What a definition's collision comes to. Arrays are freed by ambulo__pairs_free. */
 typedef struct ambulo__pairs {
@@ -45,9 +45,9 @@ ambulo_status ambulo__reach_rows(const ambulo__gait_context *context, ambulo__ro
 /* A place along forward, left and up above the ground's height, in the world, m. */
 void ambulo__world_place(const ambulo_problem_definition *definition, const double place[3],
                          double world[3]);
-/* What rows keep clear of, in the world, as contact/solid.h has it; where channels begin is left 0.
- * Of two capsules; of an obstacle by itself, without a capsule's radius, distance and weights; of a
- * capsule and an obstacle. */
+/* What rows keep clear of, in the world, as contact/curved.h has it; where channels begin is left
+ * 0. Of two capsules; of an obstacle by itself, without a capsule's radius, distance and weights;
+ * of a capsule and an obstacle. */
 ambulo__solid ambulo__solid_of_pair(const ambulo_problem_definition *definition,
                                     ambulo_capsule_pair pair);
 ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *definition, int obstacle);

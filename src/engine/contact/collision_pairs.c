@@ -9,7 +9,7 @@
  */
 #include "contact/collision.h"
 #include "base/arithmetic.h"
-#include "contact/segments.h"
+#include "contact/curved.h"
 #include "mechanics/pose.h"
 #include "model/model_query.h"
 

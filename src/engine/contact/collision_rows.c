@@ -6,7 +6,7 @@
  *     cos(psi) f + sin(psi) l,   cos(psi) l - sin(psi) f,   n
  *
  * D is the radii, the margin and what parts that pass come nearer between two nodes than at them
- * (contact/feet_apart.c), which vanishes on a fine grid.
+ * (contact/clearance.c), which vanishes on a fine grid.
  *
  * A reach holds the point r along each axis a of f, l, n within a tolerance e, at every node of its
  * times:
@@ -17,7 +17,7 @@
  * and without a tolerance by one equation each, the same form = 0.
  */
 #include "base/arithmetic.h"
-#include "contact/bounded.h"
+#include "contact/rows.h"
 #include "contact/collision.h"
 
 #include <math.h>

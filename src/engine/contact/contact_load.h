@@ -1,13 +1,38 @@
-/* contact/contact_load.h - what the law that shares the load among contacts is told of them.
+/* contact/contact_load.h - how long a foot or a patch is down without interruption, and beside
+ * which others.
+ */
+#ifndef AMBULO_CONTACT_CONTACT_LOAD_H
+#define AMBULO_CONTACT_CONTACT_LOAD_H
+
+#include "contact/foot.h"
+#include "contact/contacts.h"
+
+/* Times, s, may lie outside [0, T] in a motion that repeats. */
+typedef struct ambulo__stance {
+  double from, to; /* infinite where it never came down or leaves: in a motion that repeats
+                      if it is down all the time, in another where that begins or ends with it */
+  double leaves;   /* those of other feet and patches that hold as it begins: when the first of them
+                      ends, at the latest half-way; -infinity: none, or it has no beginning */
+  double comes;    /* those that hold as it ends: when the last of them began, at the earliest
+                      half-way; infinity: none, or it has no end */
+  int leaves_half_way, comes_half_way; /* 1: that is half-way */
+  ambulo__span phase;                  /* the part of it in the contact's mode */
+  int before, after;                   /* modes of the parts before and after; -1: none */
+} ambulo__stance;
+
+/* Of the foot or patch of one of the definition's contacts, at that contact. */
+ambulo__stance ambulo__stance_of(const ambulo_problem_definition *definition,
+                                 const ambulo_contact *contact);
+/* How long one of `modes` holds the foot (a patch: its only one) without interruption, around a
+ * contact in one of them; infinite as above. */
+ambulo__span ambulo__stance_in(const ambulo_problem_definition *definition,
+                               const ambulo_contact *contact, int modes);
+
+/* what the law that shares the load among contacts is told of them.
  *
  * A slot is a link that contacts act on: of each foot the link of its heel and, behind a joint of
  * the toes, that of its toe centre; of each patch in contact its own. At most one contact of a slot
  * is down at a time. */
-#ifndef AMBULO_CONTACT_CONTACT_LOAD_H
-#define AMBULO_CONTACT_CONTACT_LOAD_H
-
-#include "contact/contact_frame.h"
-#include "contact/foot_outline.h"
 
 enum { AMBULO__MOST_SLOTS = 6 };
 
@@ -18,7 +43,7 @@ enum { AMBULO__MOST_SLOTS = 6 };
 
 typedef struct ambulo__slots {
   int count;
-  int effector[AMBULO__MOST_SLOTS]; /* whose (contact/effector.h); slot f < foot_count is foot f's
+  int effector[AMBULO__MOST_SLOTS]; /* whose (contact/contacts.h); slot f < foot_count is foot f's
                                      */
   int link[AMBULO__MOST_SLOTS];
   int part[AMBULO__MOST_SLOTS]; /* an ambulo__slot_part */

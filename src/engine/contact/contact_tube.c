@@ -1,8 +1,8 @@
 /* contact/contact_tube.c - contacts that hold within a tolerance ("contact").
  *
  * On a loaded foot, with e the contact tolerance, o the orientation tolerance, r the point that the
- * contact holds and p its place (contact/foot_outline.h), f, l, n the axes of its surface
- * (contact/contact_frame.h), yaw, pitch, roll those of contact/foot_frame.h:
+ * contact holds and p its place (contact/foot.h), f, l, n the axes of its surface
+ * (contact/foot.h), yaw, pitch, roll those of contact/foot.h:
  *
  *     -e <= f.(r - p) <= e,   -e <= l.(r - p) <= e,   -e <= n.(r - p) <= e         m
  *     -o <= yaw, roll <= o      (twice that on the toes)                             rad
@@ -11,7 +11,7 @@
  *     flat   -o <= pitch <= o                toe   -0.95 <= pitch <= 0
  *
  * Feet with arcs roll on their heel and on their toes: there C, the arc's centre, is held at its
- * radius above the surface, and ahead within e of where it has rolled to (contact/arc.h).
+ * radius above the surface, and ahead within e of where it has rolled to (contact/curved.h).
  *
  * Toes on a joint of their own (tip on another link than the ball): n . (tip - p) >= -e.
  *
@@ -20,9 +20,9 @@
  * Rows along left, yaw and roll are left out for planar feet. At a node where one contact ends and
  * another begins both points are held, and directions within what both allow.
  */
-#include "contact/contact_frame.h"
-#include "contact/foot_frame.h"
-#include "contact/loading.h"
+#include "contact/foot.h"
+#include "contact/contacts.h"
+#include "contact/row_families.h"
 
 #include <math.h>
 

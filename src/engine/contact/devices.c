@@ -12,7 +12,7 @@
 #include "contact/devices.h"
 
 #include "base/arithmetic.h"
-#include "contact/device_path.h"
+#include "contact/load_motion.h"
 
 #include <math.h>
 #include <string.h>

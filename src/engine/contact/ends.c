@@ -11,10 +11,18 @@
  * shift = travel (a . f) + rise (a . n) for the root translations (axis a, forward f, up n) at
  * o = 0.
  */
-#include "contact/gait.h"
+#include "ambulo/mechanics.h"
+#include "base/arithmetic.h"
+#include "contact/contacts.h"
+#include "contact/foot.h"
+#include "contact/row_families.h"
+#include "contact/swing.h"
+#include "mechanics/lagrangian.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static int channel_of(const ambulo__channels *channels, int order, int coordinate) {
   if (order == 0) return ambulo__channel_q(channels, coordinate);
@@ -88,4 +96,346 @@ void ambulo__end_rows(const ambulo__gait_context *context, ambulo__row_table *ta
       matching_row(context, i, order, mirrored, table);
     }
   }
+}
+
+/* footholds at the end of a motion that repeats against those at its
+ * beginning.
+ *
+ * A foot or patch that is down at T stands where it, or its mirror image when the ends are
+ * mirrored, stands at 0, moved on by the travel:
+ *
+ *     place(T) = (place_f(0) + travel, +-place_l(0), place_n(0) + rise),   m;   - when mirrored
+ *     heading(T) = +-heading(0),   normal(T) = (normal_f(0), +-normal_l(0), normal_n(0))
+ *
+ * It need not be down at both: at T it may strike, or leave the ground. Rows at the last node are
+ * left out where they repeat those of the first (contact/rows.h), so a disagreement would be a
+ * foot that slides in the last interval. It is what the wrong number of steps comes to, too: after
+ * two steps the same foot strikes again, after one the other one does.
+ */
+
+static const double tolerance = 1e-6; /* m, rad */
+
+/* do places enter the rows at all? */
+static int uses_places(const ambulo_problem_definition *d) {
+  return d->foot_strike || d->contact_tolerance > 0.0 || d->support != AMBULO_SUPPORT_OFF ||
+         d->ground_reaction.kind != AMBULO_REACTION_NONE;
+}
+
+/* the next contact's surface is that of the first one, moved on */
+static int leans_alike(const ambulo_problem_definition *d, const ambulo_contact *first,
+                       const ambulo_contact *last) {
+  ambulo_contact image = *first;
+  double apart = 0.0;
+  if (d->ends == AMBULO_ENDS_MIRRORED) image.normal[1] = -image.normal[1];
+  image.heading = last->heading;
+  ambulo__contact_frame one = ambulo__contact_frame_of(d, &image);
+  ambulo__contact_frame other = ambulo__contact_frame_of(d, last);
+  for (int i = 0; i < 3; i++) apart = fmax(apart, fabs(one.up[i] - other.up[i]));
+  return apart <= tolerance;
+}
+
+/* at the same place of the plane: height, heading and slope */
+static ambulo_status check_turned(const ambulo_problem_definition *d, const ambulo_contact *first,
+                                  const ambulo_contact *last, double up, ambulo_diagnostics *list) {
+  double side = d->ends == AMBULO_ENDS_MIRRORED ? -1.0 : 1.0, heading = side * first->heading;
+  int effector = ambulo__effector_of(d->model, last);
+  const char *kind = ambulo__effector_kind(d->model, effector);
+  const char *name = ambulo__effector_name(d->model, effector);
+  if (fabs(last->place[2] - up) > tolerance)
+    return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, "change ends.rise",
+                         "ends.rise: %s '%s' stands %.6g m high at t = %.6g s, but ends with a "
+                         "rise of %.6g m put it at %.6g m; expected the same height",
+                         kind, name, last->place[2], d->duration, d->rise, up);
+  if (fabs(last->heading - heading) > tolerance)
+    return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere,
+                         "a motion that turns does not repeat itself: leave 'ends.kind' out",
+                         "contacts: %s '%s' is turned by %.6g rad at t = %.6g s, and by %.6g rad "
+                         "where the motion begins again; expected the same",
+                         kind, name, last->heading, d->duration, heading);
+  if (!leans_alike(d, first, last))
+    return ambulo__error(
+        list, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
+        "contacts: %s '%s' stands on the normal (%.6g, %.6g, %.6g) at t = %.6g s, and on (%.6g, "
+        "%.6g, %.6g) where the motion begins again; expected the same direction",
+        kind, name, last->normal[0], last->normal[1], last->normal[2], d->duration,
+        first->normal[0], side * first->normal[1] + 0.0, first->normal[2]); /* no -0 */
+  return AMBULO_OK;
+}
+
+static ambulo_status check_pair(const ambulo_problem_definition *d, const ambulo_contact *first,
+                                const ambulo_contact *last, ambulo_diagnostics *list) {
+  int mirrored = d->ends == AMBULO_ENDS_MIRRORED;
+  double ahead = first->place[0] + d->travel;
+  double left = mirrored ? -first->place[1] : first->place[1];
+  double up = first->place[2] + d->rise;
+  if (fabs(last->place[0] - ahead) <= tolerance && fabs(last->place[1] - left) <= tolerance)
+    return check_turned(d, first, last, up, list);
+  int one = ambulo__effector_of(d->model, first), other = ambulo__effector_of(d->model, last);
+  const char *ends = mirrored ? "mirrored" : "periodic";
+  return ambulo__error(
+      list, AMBULO_E_PROBLEM, ambulo__nowhere,
+      "mirrored ends go with an odd number of equal steps, periodic ends with an even number; or "
+      "change the travel",
+      "ends.travel: %s '%s' stands at (%.6g, %.6g) m at t = %.6g s, but %s ends with a travel of "
+      "%.6g m put it at (%.6g, %.6g) m, from %s '%s' at (%.6g, %.6g) m at t = 0; expected the "
+      "same place",
+      ambulo__effector_kind(d->model, other), ambulo__effector_name(d->model, other),
+      last->place[0], last->place[1], d->duration, ends, d->travel, ahead, left,
+      ambulo__effector_kind(d->model, one), ambulo__effector_name(d->model, one), first->place[0],
+      first->place[1]);
+}
+
+ambulo_status ambulo__schedule_check_ends(const ambulo_problem_definition *d,
+                                          ambulo_diagnostics *list) {
+  if (d->ends == AMBULO_ENDS_FREE || !uses_places(d)) return AMBULO_OK;
+  for (int i = 0; i < d->contact_count; i++) {
+    const ambulo_contact *last = &d->contacts[i];
+    if (last->to < d->duration - AMBULO__INSTANT) continue;
+    int effector = ambulo__effector_of(d->model, last);
+    if (d->ends == AMBULO_ENDS_MIRRORED) effector = ambulo__effector_mirror(d->model, effector);
+    for (int k = 0; k < d->contact_count; k++) {
+      const ambulo_contact *first = &d->contacts[k];
+      if (ambulo__effector_of(d->model, first) != effector || first->from > AMBULO__INSTANT)
+        continue;
+      ambulo_status status = check_pair(d, first, last, list);
+      if (status) return status; /* one is enough: the others follow */
+    }
+  }
+  return AMBULO_OK;
+}
+
+/* end values that contradict limits, each other, or the ground.
+ *
+ *   ranges    lo <= value <= hi where limits are rows
+ *   twice     one derivative of a coordinate at one end has one value
+ *   matching  periodic: value(T) = value(0) + shift; mirrored: value_m(T) = sign value(0) + shift,
+ *             shift = travel along the coordinate's axis at order 0, else 0
+ *   travel    shift <= hi - lo where joint limits are rows
+ *   speed     a coordinate that has to change by D within T moves at D / T on average: refused
+ *             where that is beyond its speed limit
+ *   ground    a corner whose whole chain of coordinates is prescribed stands where these put it:
+ *             on the ground where the schedule has it down, not below it elsewhere
+ */
+
+static const double end_check_tolerance = 1e-6; /* rad, m and their rates */
+static const char *const end_words[] = {"initial", "final"};
+static const char *const end_check_order_words[] = {"value", "rate", "acceleration"};
+static const char *const order_keys[] = {"", "_speed", "_acceleration"};
+
+#define REFUSE(list, hint, ...)                                                                    \
+  ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, hint, __VA_ARGS__)
+
+static const char *unit_of(const ambulo_coordinate *c, int order) {
+  return ambulo__measure_text(ambulo__row_measure(AMBULO__KIND_INITIAL_STATE, c->type, order));
+}
+
+/* the prescribed value; 0 when there is none */
+static int value_at(const ambulo_problem_definition *d, int coordinate, int order, int final,
+                    double *value) {
+  for (int e = 0; e < d->end_value_count; e++) {
+    const ambulo_end_value *end = &d->end_values[e];
+    if (end->coordinate != coordinate || end->order != order || !end->final != !final) continue;
+    *value = end->value;
+    return 1;
+  }
+  return 0;
+}
+
+static ambulo_status check_range(const ambulo_problem_definition *d, const ambulo_end_value *end,
+                                 ambulo_diagnostics *list) {
+  const ambulo_coordinate *c = &d->model->coordinates[end->coordinate];
+  int asked = end->order == 0   ? d->joint_limits != AMBULO_LIMIT_OFF
+              : end->order == 1 ? d->speed_limits
+                                : 0;
+  ambulo__bounds b = ambulo__bounds_of(
+      d, end->coordinate, end->order == 0 ? AMBULO_LIMITED_POSITION : AMBULO_LIMITED_SPEED);
+  double low = b.low.value, high = b.high.value;
+  if (!asked ||
+      (end->value >= low - end_check_tolerance && end->value <= high + end_check_tolerance))
+    return AMBULO_OK;
+  char whose[AMBULO__WHOSE_SIZE];
+  ambulo__bounds_whose(d->model, &b, whose);
+  return REFUSE(list,
+                end->order ? "change the end value, or set speed_limits: false"
+                           : "change the end value, the range in the model, or joint_limits",
+                "the %s %s of %s is %.6g %s; expected %.6g to %.6g %s, its limits%s",
+                end_words[end->final != 0], end_check_order_words[end->order], c->name, end->value,
+                unit_of(c, end->order), low, high, unit_of(c, end->order), whose);
+}
+
+static ambulo_status check_twice(const ambulo_problem_definition *d, int e,
+                                 ambulo_diagnostics *list) {
+  const ambulo_end_value *end = &d->end_values[e];
+  double first = end->value;
+  (void)value_at(d, end->coordinate, end->order, end->final, &first);
+  if (fabs(first - end->value) <= end_check_tolerance) return AMBULO_OK;
+  const ambulo_coordinate *c = &d->model->coordinates[end->coordinate];
+  return REFUSE(list, NULL,
+                "the %s %s of %s is prescribed twice: %.6g %s and %.6g %s; expected one",
+                end_words[end->final != 0], end_check_order_words[end->order], c->name, first,
+                unit_of(c, end->order), end->value, unit_of(c, end->order));
+}
+
+/* ------------------------------------------------------------------ both ends */
+
+static ambulo_status check_matching(const ambulo_problem_definition *d, int i, int order,
+                                    ambulo_diagnostics *list) {
+  const ambulo_coordinate *from = &d->model->coordinates[i];
+  int mirrored = d->ends == AMBULO_ENDS_MIRRORED, to = mirrored ? from->mirror : i;
+  double first = 0.0, last = 0.0, sign = mirrored ? from->mirror_sign : 1.0;
+  if (!value_at(d, i, order, 0, &first) || !value_at(d, to, order, 1, &last)) return AMBULO_OK;
+  double shift = order == 0 ? ambulo__end_shift(d, to) : 0.0, expected = sign * first + shift;
+  if (fabs(last - expected) <= end_check_tolerance) return AMBULO_OK;
+  const char *unit = unit_of(from, order), *final = d->model->coordinates[to].name;
+  char hint[200];
+  (void)snprintf(hint, sizeof hint,
+                 "leave one of the two out, the other follows (--set ends.final%s.%s=null)",
+                 order_keys[order], final);
+  return REFUSE(
+      list, hint,
+      "the final %s of %s is %.6g %s, but %s ends with a travel of %.6g m make it %.6g %s "
+      "from the initial %s of %s, %.6g %s",
+      end_check_order_words[order], final, last, unit, mirrored ? "mirrored" : "periodic",
+      d->travel, expected, unit, end_check_order_words[order], from->name, first, unit);
+}
+
+/* how far coordinate i has to move from 0 to T; 0 when that is open */
+static double change_of(const ambulo_problem_definition *d, int i) {
+  double first = 0.0, last = 0.0;
+  if (value_at(d, i, 0, 0, &first) && value_at(d, i, 0, 1, &last)) return last - first;
+  return ambulo__end_shift(d, i);
+}
+
+static ambulo_status check_change(const ambulo_problem_definition *d, int i,
+                                  ambulo_diagnostics *list) {
+  const ambulo_coordinate *c = &d->model->coordinates[i];
+  double change = change_of(d, i), speed = change / d->duration;
+  const char *unit = unit_of(c, 0);
+  char whose[AMBULO__WHOSE_SIZE];
+  ambulo_status status = AMBULO_OK;
+  ambulo__bounds range = ambulo__bounds_of(d, i, AMBULO_LIMITED_POSITION);
+  ambulo__bounds speeds = ambulo__bounds_of(d, i, AMBULO_LIMITED_SPEED);
+  double low = range.low.value, high = range.high.value;
+  if (d->joint_limits != AMBULO_LIMIT_OFF &&
+      fabs(change) > fmax(0.0, high - low) + end_check_tolerance) {
+    ambulo__bounds_whose(d->model, &range, whose);
+    status = REFUSE(list, "widen the range in the model, or shorten the travel",
+                    "%s has to move by %.6g %s from beginning to end; its range, %.6g to %.6g "
+                    "%s%s, is only %.6g %s wide",
+                    c->name, change, unit, low, high, unit, whose, fmax(0.0, high - low), unit);
+  }
+  if (d->speed_limits && (speed > speeds.high.value + end_check_tolerance ||
+                          speed < speeds.low.value - end_check_tolerance)) {
+    ambulo__bounds_whose(d->model, &speeds, whose);
+    status =
+        REFUSE(list, "allow a higher speed, more time, or less travel",
+               "%s has to move by %.6g %s in %.6g s, at %.6g %s on average; its speed limit is "
+               "%.6g %s%s",
+               c->name, change, unit, d->duration, speed, unit_of(c, 1),
+               speed > 0.0 ? speeds.high.value : speeds.low.value, unit_of(c, 1), whose);
+  }
+  return status;
+}
+
+/* --------------------------------------------------------------------- ground */
+
+/* every coordinate from the world to the point's link is prescribed */
+static int is_placed(const ambulo_problem_definition *d, int point, int final) {
+  double value;
+  for (int i = d->model->points[point].link; i >= 0; i = d->model->links[i].parent) {
+    int coordinate = d->model->links[i].coordinate;
+    if (coordinate >= 0 && !value_at(d, coordinate, 0, final, &value)) return 0;
+  }
+  return 1;
+}
+
+static ambulo_status check_corner(const ambulo_problem_definition *d, int foot, int point, int down,
+                                  int final, const double *place, ambulo_diagnostics *list) {
+  const ambulo_model *model = d->model;
+  if (!is_placed(d, point, final)) return AMBULO_OK;
+  ambulo__contact_frame surface = ambulo__surface_below(d, foot, final ? d->duration : 0.0);
+  double height = ambulo__contact_frame_along(&surface, surface.up, place + 3 * point);
+  double time = final ? d->duration : 0.0;
+  if (down && fabs(height) > end_check_tolerance)
+    return REFUSE(list, "change the end values, or the contact's time",
+                  "the %s state puts %s (foot '%s') %.4g m %s the ground at t = %.6g s, where the "
+                  "schedule has it in contact",
+                  end_words[final], model->points[point].name, model->feet[foot].name, fabs(height),
+                  height > 0.0 ? "above" : "below", time);
+  if (!down && height < -end_check_tolerance)
+    return REFUSE(list, "change the end values",
+                  "the %s state puts %s (foot '%s') %.4g m below the ground at t = %.6g s",
+                  end_words[final], model->points[point].name, model->feet[foot].name, -height,
+                  time);
+  return AMBULO_OK;
+}
+
+static ambulo_status check_feet(const ambulo_problem_definition *d, const int *active, int final,
+                                const double *place, ambulo_diagnostics *list) {
+  const ambulo_model *model = d->model;
+  ambulo_status status = AMBULO_OK;
+  for (int f = 0; f < model->foot_count; f++) {
+    const ambulo_foot *foot = &model->feet[f];
+    int contact = active[f];
+    int mode = contact < 0 ? -1 : (int)d->contacts[contact].mode;
+    int corner[4] = {foot->heel[0], foot->heel[1], foot->toe[0], foot->toe[1]};
+    for (int k = 0; k < 4; k++) {
+      if (corner[k] < 0) continue;
+      int down =
+          mode == AMBULO_CONTACT_FLAT || mode == (k < 2 ? AMBULO_CONTACT_HEEL : AMBULO_CONTACT_TOE);
+      ambulo_status one = check_corner(d, f, corner[k], down, final, place, list);
+      if (one) status = one;
+    }
+  }
+  return status;
+}
+
+static ambulo_status check_ground(const ambulo_problem_definition *d, const int *active, int final,
+                                  const ambulo_allocator *allocator, ambulo_diagnostics *list) {
+  const ambulo_model *model = d->model;
+  size_t n = (size_t)model->coordinate_count, points = (size_t)model->point_count;
+  double *state = ambulo__alloc(allocator, 4 * n + 6 + 3 * points, sizeof *state);
+  void *scratch = ambulo__alloc_aligned(allocator, 1, ambulo__lagrangian_scratch_size(model));
+  ambulo_status status = state && scratch ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) {
+    double *place = state + 4 * n + 6;
+    for (int i = 0; i < model->coordinate_count; i++) (void)value_at(d, i, 0, final, &state[i]);
+    status = ambulo__lagrangian_inverse_dynamics(model, state, state + n, state + 2 * n,
+                                                 &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                                   .tau = state + 3 * n,
+                                                                   .wrench = state + 4 * n,
+                                                                   .points = place},
+                                                 scratch);
+    if (!status) status = check_feet(d, active, final, place, list);
+  }
+  ambulo__free(allocator, state);
+  ambulo__free_aligned(allocator, scratch);
+  return status;
+}
+
+ambulo_status ambulo__ends_check(const ambulo_problem_definition *d, int nodes, const int *active,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK, one;
+  for (int e = 0; e < d->end_value_count; e++) {
+    one = check_range(d, &d->end_values[e], list);
+    if (one) status = one;
+    one = check_twice(d, e, list);
+    if (one) status = one;
+  }
+  int orders = d->ends == AMBULO_ENDS_FREE ? -1 : d->ends_order;
+  for (int i = 0; i < d->model->coordinate_count; i++) {
+    for (int order = 0; order <= orders; order++) {
+      one = check_matching(d, i, order, list);
+      if (one) status = one;
+    }
+    one = check_change(d, i, list);
+    if (one) status = one;
+  }
+  if (status || !d->ground_penetration || d->end_value_count == 0) return status;
+  for (int final = 0; final <= 1; final++) {
+    const int *at = active + (final ? (nodes - 1) * d->model->foot_count : 0);
+    one = check_ground(d, at, final, allocator, list);
+    if (one) status = one;
+  }
+  return status;
 }

@@ -17,7 +17,7 @@
 #ifndef AMBULO_CONTACT_GAIT_RULE_H
 #define AMBULO_CONTACT_GAIT_RULE_H
 
-#include "contact/gait.h"
+#include "contact/row_families.h"
 
 #define AMBULO__COMFORTABLE_NUMBER 0.31
 enum { AMBULO__PHASES = 4 }; /* heel_strike, foot_flat, heel_off, toe_off of a gait */

@@ -6,7 +6,7 @@
 #include "contact/holds.h"
 
 #include "base/arithmetic.h"
-#include "contact/hand_motion.h"
+#include "contact/load_motion.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -61,7 +61,6 @@ static ambulo__hand_motion motion_kept(const held *h, const double *kept, int ha
 }
 
 /* ------------------------------------------------------------ compilation */
-
 
 static ambulo_status compile(const ambulo_model *model, const ambulo_hold *hold,
                              const ambulo_allocator *a, held *h) {

@@ -1,6 +1,100 @@
-/* contact/load_profile.c - see told.h.
+/* contact/load_profile.c - see stride_clock.h.
  *
- * With the share s of the stride, b and b' the strikes around t (contact/stride_clock.h),
+ *     share = (t - b) / (b' - b),   b, b' the beginnings of the stances around t
+ */
+#include "contact/load_profile.h"
+
+#include "base/arithmetic.h"
+#include "base/lanes.h"
+#include "contact/contacts.h"
+
+#include <math.h>
+
+int ambulo__stride_at(const ambulo_problem_definition *d, int foot, double time,
+                      ambulo__stride_now *now) {
+  int last = ambulo__image_periods(d) + 1; /* the stride that begins at T ends 3 T after 0 */
+  *now = (ambulo__stride_now){{-INFINITY, INFINITY}, {-1, -1}, 0.0};
+  if (d->ends == AMBULO_ENDS_FREE) return 0;
+  for (int i = 0; i < d->contact_count; i++) {
+    for (int period = -last; period <= last; period++) {
+      if (ambulo__image_effector(d, i, period) != foot) continue;
+      ambulo__span image = ambulo__image_span(d, i, period);
+      ambulo__span span = ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, image);
+      int side = span.from > time + AMBULO__INSTANT;
+      if (side ? span.from >= now->begin[1] : span.from <= now->begin[0]) continue;
+      now->begin[side] = span.from;
+      now->contact[side] = span.begins;
+    }
+  }
+  if (now->contact[0] < 0 || now->contact[1] < 0) return 0;
+  double share = (time - now->begin[0]) / (now->begin[1] - now->begin[0]);
+  now->share = share > 0.0 ? share : 0.0;
+  return 1;
+}
+
+/*
+ * With u = (t - from) / ramp, v = (to - t) / ramp, S' = 6 u (1 - u) inside of (0, 1):
+ *
+ *     dw/dfrom = -S'(u) S(v) / ramp,   dw/dto = S(u) S'(v) / ramp,   dw/dt = -dw/dfrom - dw/dto
+ *     dw/dramp = -(u S'(u) S(v) + v S(u) S'(v)) / ramp
+ */
+
+int ambulo__hold_rises(const ambulo_hold *hold) {
+  return hold->from > AMBULO__INSTANT;
+}
+
+int ambulo__hold_falls(const ambulo_hold *hold, double duration) {
+  return hold->to < duration - AMBULO__INSTANT;
+}
+
+/* (H.5) S((t - from) / ramp) S((to - t) / ramp) */
+double ambulo__hold_window(const ambulo_hold *hold, double duration, double time) {
+  double window = 1.0;
+  if (ambulo__hold_rises(hold)) window *= ambulo__smooth_step((time - hold->from) / hold->ramp);
+  if (ambulo__hold_falls(hold, duration))
+    window *= ambulo__smooth_step((hold->to - time) / hold->ramp);
+  return window;
+}
+
+/* S'(u) */
+static double step_slope(double u) {
+  return u > 0.0 && u < 1.0 ? 6.0 * u * (1.0 - u) : 0.0;
+}
+
+/* (H.6) dw by the time, from, to and ramp */
+ambulo__hold_slopes ambulo__hold_slopes_at(const ambulo_hold *hold, double duration, double time) {
+  double u = (time - hold->from) / hold->ramp, v = (hold->to - time) / hold->ramp;
+  double up = 1.0, down = 1.0, rise = 0.0, fall = 0.0;
+  if (ambulo__hold_rises(hold)) {
+    up = ambulo__smooth_step(u);
+    rise = step_slope(u) / hold->ramp;
+  }
+  if (ambulo__hold_falls(hold, duration)) {
+    down = ambulo__smooth_step(v);
+    fall = step_slope(v) / hold->ramp;
+  }
+  ambulo__hold_slopes w = {.value = up * down, .by_from = -rise * down, .by_to = up * fall};
+  w.by_time = -w.by_from - w.by_to;
+  if (rise != 0.0) w.by_ramp -= u * rise * down;
+  if (fall != 0.0) w.by_ramp -= v * fall * up;
+  return w;
+}
+
+int ambulo__hold_events(const ambulo_hold *hold, double duration, double time[4]) {
+  int count = 0;
+  if (ambulo__hold_rises(hold)) {
+    time[count++] = hold->from;
+    time[count++] = hold->from + hold->ramp;
+  }
+  if (ambulo__hold_falls(hold, duration)) {
+    time[count++] = hold->to - hold->ramp;
+    time[count++] = hold->to;
+  }
+  return count;
+}
+
+/*
+ * With the share s of the stride, b and b' the strikes around t (contact/load_profile.h),
  *
  *     factor = w(s) f,   w = S(v / r) S((l - v) / r),   v = s - from and l = to - from, modulo 1
  *     dw/dt = w' / (b' - b),   dw/db = -w' (1 - s) / (b' - b),   dw/db' = -w' s / (b' - b)
@@ -9,13 +103,6 @@
  * Fritsch & Butland (1984), the weighted harmonic means of neighbouring secants, 0 where these have
  * not one sign: no overshoot.
  */
-#include "contact/load_profile.h"
-
-#include "base/lanes.h"
-#include "contact/hold_times.h"
-#include "contact/stride_clock.h"
-
-#include <math.h>
 
 /* ---------------------------------------------------------------- profile */
 

@@ -10,10 +10,8 @@
  */
 #include "contact/phases.h"
 #include "base/arithmetic.h"
-#include "contact/effector.h"
-#include "contact/hold_times.h"
-#include "contact/loading.h"
-#include "contact/step_edge.h"
+#include "contact/contacts.h"
+#include "contact/load_profile.h"
 #include "contact/swing.h"
 
 #include "model/model.h"

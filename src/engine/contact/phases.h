@@ -10,7 +10,7 @@
 #include "base/diagnostics.h"
 #include "ambulo/problem.h"
 #include "base/alloc.h"
-#include "contact/loading.h"
+#include "contact/contacts.h"
 
 /* Inside (0, T), rising and apart by more than 1e-9 s. */
 typedef struct ambulo__events {

@@ -1,6 +1,6 @@
 /* method/engine.c - setting up a solve on one grid. */
 #include "method/engine.h"
-#include "contact/bounds.h"
+#include "contact/row_families.h"
 #include "method/augmented.h"
 #include "method/model_step.h"
 #include "method/parameters.h"

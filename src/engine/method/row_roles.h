@@ -7,7 +7,7 @@
  * Each in the order of the problem's rows, as scaled gradients (linear/sparse_rows.h):
  *   equality    scale 1
  *   border      scale 1
- *   inequality  "excess" v = -c / size <= 0, size from the row table (contact/row_table.h), which
+ *   inequality  "excess" v = -c / size <= 0, size from the row table (contact/rows.h), which
  *               makes rows of different unit comparable; rows of the caller: the length of their
  *               gradient at the start
  */

@@ -38,7 +38,7 @@ static inline double ambulo__term_quadrature(const ambulo_problem *p, const ambu
 
 /* ------------------------------------------------------------ terms of the caller */
 
-/* Value, slope and curvature at a node. * With y the channels of a node [C] (contact/channels.h)
+/* Value, slope and curvature at a node. * With y the channels of a node [C] (contact/rows.h)
  * and r(y) the caller's function,
  *
  *     AMBULO_USER_TERM     phi = r                 AMBULO_USER_SQUARE   phi = r^2

@@ -6,7 +6,7 @@
  */
 #include "contact/collision.h"
 #include "contact/devices.h"
-#include "contact/gait.h"
+#include "contact/row_families.h"
 #include "contact/holds.h"
 #include "problem/definition.h"
 #include "problem/term.h"

@@ -2,7 +2,7 @@
  *
  * Quantities (d coordinates, N + 1 nodes, blocks of 8 nodes):
  *   x         [control_points][d]            unknowns
- *   channel   [blocks][channels][8]          q, qd, qdd, tau, M, F, points (contact/channels.h)
+ *   channel   [blocks][channels][8]          q, qd, qdd, tau, M, F, points (contact/rows.h)
  *   row       c_r = constant + sum coefficient * channel         (Eqs. 14, 17')
  *   objective J = sum_terms weight sum_k w_k sum_i phi(u_ik)      (Eq. 13, trapezoidal w_k)
  *

@@ -6,7 +6,7 @@
  */
 #include "base/arithmetic.h"
 #include "contact/contact_load.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "problem/nlp.h"
 
 #include <math.h>
@@ -77,7 +77,7 @@ static void add_slot(const ambulo_problem *p, const ambulo__contact_load *load, 
 }
 
 /* (W.10) origin + n x M / (n.f), M.f / (n.f). A contact without normal force may still have a
- * moment, by the allowance of its rows (contact/sharing.c): no centre says which, so that the
+ * moment, by the allowance of its rows (contact/force_rows.c): no centre says which, so that the
  * moment about the world's origin, M + origin x f, is given besides */
 static void place_pressure(const ambulo__contact_frame *frame, const double moment[3],
                            ambulo__pressure *at) {

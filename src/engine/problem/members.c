@@ -1,7 +1,7 @@
 /* problem/members.c - the tables of members.h.
  *
  * Rows are in the order of the structures. Each names what is not 0: a number without a range is
- * one that its structure's check looks at by itself (contact/device_check.c, hold_check.c,
+ * one that its structure's check looks at by itself (contact/load_check.c, hold_check.c,
  * collision_check.c). */
 #include "problem/members.h"
 

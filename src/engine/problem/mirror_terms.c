@@ -23,7 +23,7 @@
  */
 
 #include "contact/devices.h"
-#include "contact/gait.h"
+#include "contact/row_families.h"
 #include "model/mirror_image.h"
 #include "model/neutral_pose.h"
 #include "problem/term.h"

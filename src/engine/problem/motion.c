@@ -9,7 +9,7 @@
 #include "base/sized.h"
 
 #include "contact/load_profile.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 
 #include <math.h>
 #include <string.h>

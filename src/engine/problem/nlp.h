@@ -17,7 +17,7 @@
 #include "contact/devices.h"
 #include "contact/holds.h"
 #include "contact/collision.h"
-#include "contact/foot_outline.h"
+#include "contact/foot.h"
 #include "contact/gait_rule.h"
 #include "mechanics/plan.h"
 #include "problem/definition.h"
@@ -183,7 +183,7 @@ ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_al
 typedef struct ambulo__pressure {
   double force[3], center[3], free_moment, moment[3];
 } ambulo__pressure;
-/* Of a foot or a patch (contact/effector.h) where contacts share the load, at `time`, from the
+/* Of a foot or a patch (contact/contacts.h) where contacts share the load, at `time`, from the
  * channels of a node (`channel`: of the first, in the lanes). */
 ambulo__pressure ambulo__contact_pressure(const ambulo_problem *problem,
                                           const ambulo__foot_outline *outlines, int effector,

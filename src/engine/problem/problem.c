@@ -13,9 +13,7 @@
 #include "contact/load_profile.h"
 #include "contact/phases.h"
 #include "contact/contact_load.h"
-#include "contact/patch_rows.h"
-#include "contact/flight.h"
-#include "contact/sharing.h"
+#include "contact/row_families.h"
 #include "problem/term.h"
 
 #include <math.h>

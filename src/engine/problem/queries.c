@@ -1,7 +1,7 @@
 /* problem/queries.c - what a problem tells about itself. */
 #include "base/arithmetic.h"
-#include "contact/bounds.h"
-#include "contact/loading.h"
+#include "contact/row_families.h"
+#include "contact/contacts.h"
 #include "contact/phases.h"
 #include "problem/definition.h"
 #include "problem/nlp.h"

@@ -3,7 +3,7 @@
  *     value_r   = constant_r + sum_t coefficient_rt * channel[at_rt]
  *     adjoint[at_rt] += weight_r * coefficient_rt
  *
- * The table (contact/row_table.h) says what a row is called and where it stands; that is a hundred
+ * The table (contact/rows.h) says what a row is called and where it stands; that is a hundred
  * bytes of a row, of which a value needs twenty. Here are those alone: rows in the table's order,
  * cut into runs of rows with equally many terms, so that the inner loop has a fixed length.
  *
@@ -13,7 +13,7 @@
 #ifndef AMBULO_PROBLEM_ROW_RUNS_H
 #define AMBULO_PROBLEM_ROW_RUNS_H
 
-#include "contact/row_table.h"
+#include "contact/rows.h"
 
 typedef struct ambulo__row_run {
   int first, count;       /* rows of the table */

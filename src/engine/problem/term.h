@@ -19,7 +19,7 @@
 #define AMBULO_PROBLEM_TERM_H
 
 #include "ambulo/problem.h"
-#include "contact/channels.h"
+#include "contact/rows.h"
 
 /* One scalar residual of a term. */
 typedef struct ambulo__residual {

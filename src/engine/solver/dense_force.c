@@ -10,7 +10,7 @@
  * may press any way: of one that is in contact at some time all of its force, as |f(t) - ...|.
  */
 #include "contact/contact_load.h"
-#include "contact/effector.h"
+#include "contact/contacts.h"
 #include "solver/dense.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@
 typedef struct force {
   const ambulo__dense *dense;
   const char *subject;
-  int effector; /* contact/effector.h; -1: all of it */
+  int effector; /* contact/contacts.h; -1: all of it */
   double weight;
   ambulo__slots slots;
 } force;

@@ -38,7 +38,7 @@
  */
 #include "solver/sensitivity.h"
 
-#include "contact/bounds.h"
+#include "contact/row_families.h"
 #include "contact/phases.h"
 
 #include <float.h>
@@ -279,7 +279,7 @@ static ambulo_status differ(stationary *s, ambulo__parameter *n, int *found) {
 /* --------------------------------------------------------------------- limits */
 
 /* -sum lambda dc/db over the rows of one kind of limit, [d][2]: y - lo >= 0, hi - y >= 0. With
- * mirrored ends a row may be the partner's (contact/bounds.h): its upper bound has dc/db = 1 and
+ * mirrored ends a row may be the partner's (contact/row_families.h): its upper bound has dc/db = 1 and
  * its lower one -1, whichever side it is on. */
 static void pull_at_limits(const stationary *s, ambulo_limited what, double *by) {
   const ambulo_problem *p = s->p->problem;

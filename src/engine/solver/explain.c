@@ -8,7 +8,7 @@
 #include "solver/verdict.h"
 #include "solver/explain.h"
 
-#include "contact/bounds.h"
+#include "contact/row_families.h"
 #include "solver/audit.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* solver/explain_task.c - says so when a gait without flight that failed asks for what is no walk
- * (contact/task.h). */
+ * (contact/swing.h). */
 #include "solver/explain.h"
 
-#include "contact/flight.h"
-#include "contact/task.h"
+#include "contact/row_families.h"
+#include "contact/swing.h"
 
 #include <math.h>
 

@@ -12,8 +12,8 @@
  */
 #include "solver/sensitivity.h"
 
-#include "contact/bounds.h"
-#include "contact/hold_times.h"
+#include "contact/row_families.h"
+#include "contact/load_profile.h"
 #include "model/conditions.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * of what stands in the way, by their keys: objective[name].weight, constraints.zmp_margin, ... */
 #include "solver/sensitivity.h"
 
-#include "contact/flight.h"
+#include "contact/row_families.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -21,9 +21,9 @@
 #include "solver/sensitivity.h"
 
 #include "base/arithmetic.h"
-#include "contact/contact_frame.h"
+#include "contact/foot.h"
 #include "contact/gait_rule.h"
-#include "contact/hold_times.h"
+#include "contact/load_profile.h"
 
 #include <math.h>
 #include <stdio.h>

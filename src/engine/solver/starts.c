@@ -15,7 +15,7 @@
  */
 #include "solver/starts.h"
 #include "base/machine.h"
-#include "contact/gait.h"
+#include "contact/row_families.h"
 #include "solver/result.h"
 #include "model/neutral_pose.h"
 #include "problem/nlp.h"

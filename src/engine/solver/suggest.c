@@ -2,7 +2,7 @@
  */
 #include "solver/suggest.h"
 
-#include "contact/bounds.h"
+#include "contact/row_families.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,7 @@
 #include "model/model.h"
 #include "solver/suggest.h"
 
-#include "contact/contact_frame.h"
-#include "contact/foot_outline.h"
+#include "contact/foot.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -231,7 +230,7 @@ static void narrow_gap(const ambulo__advice *a) {
   const ambulo__curved *row = ambulo__row_curved_of(&a->problem->table, a->row);
   double gap = a->problem->definition.clearance.feet, kept = row->of.apart.distance;
   double missed =
-      kept - sqrt(fmax(0.0, kept * (kept - 2.0 * a->room))); /* D - |e|, contact/apart.h */
+      kept - sqrt(fmax(0.0, kept * (kept - 2.0 * a->room))); /* D - |e|, contact/curved.h */
   double enough = ambulo__outward(gap - missed, 0);
   if (gap < missed) {
     ambulo__advice_say(

@@ -7,7 +7,7 @@
  * the length: so a cadence is varied at a given speed. Of a speed alone follow both. Two unlike
  * steps: lists of two lengths, of two times.
  */
-#include "contact/gait.h"
+#include "contact/row_families.h"
 #include "definitions/problem_reader.h"
 
 #include <math.h>

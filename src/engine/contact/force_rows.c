@@ -1,0 +1,303 @@
+/* contact/force_rows.c - what each contact can supply where contacts share the load
+ * ("normal_force", "friction", "pressure", "free_moment").
+ *
+ * Of a loaded contact: force f and moment m about its centre p, axes f, l, n of its surface, its
+ * region of pressure [back, front] x [-side, side] about p, W = m g. All rows are linear in the
+ * channels.
+ *
+ *     0 <= n.f / W <= most              body weights; most: how fast it may be loaded
+ *     mu n.f -+ e.f >= 0,  e = f, l     body weights
+ *     back n.f <= -l.m <= front n.f     m, divided by W: -l.m / n.f is how far the centre of
+ *     -side n.f <= f.m <= side n.f      pressure is ahead of p, f.m / n.f how far to the left;
+ *                                       all with an allowance a of 2e-4 m at 1.75 m
+ *     |n.m| <= bound W                  m, divided by W
+ *
+ * Of an arc that rolls, the centre of pressure is within arc_pressure of under its centre
+ * (contact/curved.h).
+ *
+ * A contact without weight carries exactly nothing and has no rows.
+ */
+#include "contact/row_families.h"
+
+#include "base/arithmetic.h"
+#include "contact/contact_load.h"
+#include "contact/contacts.h"
+#include "contact/rows.h"
+#include "model/neutral_pose.h"
+
+#include <math.h>
+
+/* m, times the weight: a contact that carries a hundredth of the weight may do so 2 cm beyond its
+ * box. Just after a strike, and just before a foot leaves, forces are so small that rows without
+ * it can hardly be moved: walks take up to four times the iterations, and of 300 random ones
+ * (bench/random_walks.py) 11 are only feasible with half of it */
+static const double allowance = 2e-4;
+
+typedef struct one {
+  const ambulo__gait_context *context;
+  int node, planar;
+  double weight; /* W, N */
+  const char *subject;
+  int force, moment; /* first channels */
+  ambulo__contact_load load;
+  ambulo__row_table *table;
+} one;
+
+static void bounded(const one *c, ambulo__row_kind kind, const char *lower, const char *upper,
+                    ambulo__measure measure, const ambulo__linear *form, double low, double high) {
+  ambulo__bounded_name name = {kind, c->subject, lower, upper, measure};
+  ambulo__bounded_rows(c->context, c->node, &name, form, low, high, c->table);
+}
+
+static void normal_rows(const one *c) {
+  ambulo__linear form = {.count = 0};
+  ambulo__linear_add(&form, c->force, c->load.frame.up, 1.0 / c->weight);
+  bounded(c, AMBULO__KIND_NORMAL_FORCE, "pulls", "loaded too fast", AMBULO__BODY_WEIGHTS, &form,
+          0.0, c->load.most);
+}
+
+static void friction_rows(const one *c, const double direction[3], const char *lower,
+                          const char *upper) {
+  double mu = c->context->definition->ground_reaction.friction;
+  for (int sign = -1; sign <= 1; sign += 2) {
+    ambulo__linear form = {.count = 0};
+    ambulo__linear_add(&form, c->force, c->load.frame.up, mu / c->weight);
+    ambulo__linear_add(&form, c->force, direction, -sign / c->weight);
+    bounded(c, AMBULO__KIND_FRICTION, sign > 0 ? upper : lower, upper, AMBULO__BODY_WEIGHTS, &form,
+            0.0, INFINITY);
+  }
+}
+
+/* axis . m - edge n . f >= 0, both times `sign` */
+static void pressure_row(const one *c, const double axis[3], double sign, double edge,
+                         const char *side) {
+  ambulo__linear form = {.constant = allowance * ambulo__model_size(c->context->model)};
+  ambulo__linear_add(&form, c->moment, axis, sign / c->weight);
+  ambulo__linear_add(&form, c->force, c->load.frame.up, -edge / c->weight);
+  bounded(c, AMBULO__KIND_PRESSURE, side, side, AMBULO__METRES, &form, 0.0, INFINITY);
+}
+
+/* of an arc that rolls: under its centre */
+static void arc_rows(const one *c) {
+  const ambulo__gait_context *context = c->context;
+  const ambulo__contact_load *load = &c->load;
+  ambulo__arc arc = {.room = context->definition->ground_reaction.arc_pressure,
+                     .center = ambulo__channel_point(&context->channels, load->arc, 0),
+                     .force = c->force,
+                     .moment = c->moment,
+                     .weight = c->weight,
+                     .slack = allowance * ambulo__model_size(context->model)};
+  for (int i = 0; i < 3; i++) {
+    arc.forward[i] = load->frame.forward[i];
+    arc.left[i] = load->frame.left[i];
+    arc.up[i] = load->frame.up[i];
+    arc.along += load->frame.forward[i] * load->center[i];
+  }
+  for (int side = 0; side < 2; side++) {
+    arc.sign = side ? -1.0 : 1.0;
+    ambulo__row_arc(c->table, AMBULO__KIND_PRESSURE, c->subject, side ? "front" : "back", c->node,
+                    context->times[c->node], &arc);
+  }
+}
+
+static void pressure_rows(const one *c) {
+  const ambulo__contact_load *load = &c->load;
+  if (load->arc >= 0) {
+    arc_rows(c);
+  } else {
+    pressure_row(c, load->frame.left, -1.0, load->box[0], "back");
+    pressure_row(c, load->frame.left, 1.0, -load->box[1], "front");
+  }
+  if (c->planar) return;
+  pressure_row(c, load->frame.forward, 1.0, -load->side, "right");
+  pressure_row(c, load->frame.forward, -1.0, -load->side, "left");
+}
+
+static void contact_rows(const one *c) {
+  const ambulo_ground_reaction *r = &c->context->definition->ground_reaction;
+  normal_rows(c);
+  if (r->friction >= 0.0) {
+    friction_rows(c, c->load.frame.forward, "backward", "forward");
+    if (!c->planar) friction_rows(c, c->load.frame.left, "to the right", "to the left");
+  }
+  if (r->pressure) pressure_rows(c);
+  if (isnan(r->free_moment) || c->planar) return;
+  ambulo__linear form = {.count = 0};
+  ambulo__linear_add(&form, c->moment, c->load.frame.up, 1.0 / c->weight);
+  bounded(c, AMBULO__KIND_FREE_MOMENT, "to the right", "to the left", AMBULO__METRES, &form,
+          -r->free_moment, r->free_moment);
+}
+
+/* on a grid on events also those of the contact that ends at the node */
+static void slot_rows(one *c, const ambulo__foot_outline *outlines, const ambulo__slots *slots,
+                      int slot) {
+  const ambulo__gait_context *context = c->context;
+  const ambulo_problem_definition *d = context->definition;
+  int effector = slots->effector[slot];
+  double time = context->times[c->node];
+  ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_FORCES, c->node, effector);
+  c->subject = ambulo__slot_name(context->model, slots, slot);
+  c->force = ambulo__channel_foot_force(&context->channels, slot, 0);
+  c->moment = ambulo__channel_contact_moment(&context->channels, slot, 0);
+  for (int i = 0; i < phases.count; i++) {
+    if (phases.contact[i] < 0) continue;
+    c->load =
+        ambulo__contact_load_at(d, outlines, slots, slot, &d->contacts[phases.contact[i]], time);
+    c->table->before = ambulo__phase_is_before(context, i);
+    if (c->load.loaded && c->load.weight > AMBULO__LEAST_WEIGHT) contact_rows(c);
+  }
+  c->table->before = 0;
+}
+
+/* (W.9) normal force, friction, pressure, free moment of each contact */
+void ambulo__sharing_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  const ambulo_model *model = context->model;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(model, &table->allocator);
+  if (!outlines) {
+    table->status = AMBULO_E_MEMORY;
+    return;
+  }
+  ambulo__slots slots = ambulo__slots_of(context->definition);
+  one c = {.context = context, .table = table};
+  c.planar = !ambulo__model_moves_sideways(model);
+  c.weight = ambulo__model_weight(model);
+  for (c.node = 0; c.node < context->nodes; c.node++) {
+    if (ambulo__in_flight(context, c.node)) continue;
+    for (int slot = 0; slot < slots.count; slot++) slot_rows(&c, outlines, &slots, slot);
+  }
+  ambulo__free(&table->allocator, outlines);
+}
+
+/* a body that nothing touches ("flight").
+ *
+ * Without contacts nothing takes the root wrench, the force F and the moment M about the world
+ * origin that inverse dynamics asks of the surroundings, so that there is none. With the centre of
+ * mass r, W = m g, e the flight tolerance, axes f, l, n:
+ *
+ *     -e <= a . F / W <= e,                     a = f, l, n      body weights
+ *     -e h <= a . (M - r x F) / W <= e h,       a = f, l, n      m, h = 1 m for 1.75 m
+ *
+ * F / m is the acceleration of the centre of mass less that of gravity, M - r x F the rate of the
+ * angular momentum about it: momentum follows gravity, angular momentum is kept. Within a
+ * tolerance, because a flight is no spline; equations at every node leave a trajectory no room to
+ * find it.
+ *
+ * An event node between flight and contact belongs to both. The force is zero there, and so is what
+ * each contact carries: its own rows would only say the same again, and are left out. Beside it,
+ * between the nodes, the contact takes what is left at a point as far below the centre of mass as a
+ * leg is long; e is a fifth there, which keeps that under 1 mm of pressure.
+ *
+ * Planar models have the rows along f and n, and that about l.
+ */
+
+static const double beside_contact = 0.2; /* of e, at an event node */
+
+double ambulo__flight_arm(const ambulo_model *model) {
+  return ambulo__model_size(model);
+}
+
+int ambulo__flight_span(const ambulo_problem_definition *d, ambulo__span *span) {
+  double time = 0.0, last = -1.0;
+  while (time < d->duration - AMBULO__INSTANT && time > last) {
+    last = time;
+    for (int i = 0; i < d->contact_count; i++) {
+      const ambulo_contact *c = &d->contacts[i];
+      if (c->from <= time + AMBULO__INSTANT) time = fmax(time, c->to);
+    }
+  }
+  if (time >= d->duration - AMBULO__INSTANT) return 0;
+  *span = (ambulo__span){time, d->duration, -1, -1};
+  for (int i = 0; i < d->contact_count; i++) {
+    double from = d->contacts[i].from;
+    if (from > time + AMBULO__INSTANT) span->to = fmin(span->to, from);
+  }
+  return 1;
+}
+
+/* ------------------------------------------------------------------- when */
+
+/* feet: those of a node, or just before it */
+static int nothing_holds(const ambulo__gait_context *context, const int *feet, int node,
+                         int before) {
+  const ambulo_problem_definition *d = context->definition;
+  int count = context->model->foot_count;
+  double time = context->times[node];
+  for (int foot = 0; foot < count; foot++)
+    if (feet[node * count + foot] >= 0) return 0;
+  for (int e = count; e < ambulo__effector_count(context->model); e++)
+    if (before ? ambulo__contact_before(d, e, time) : ambulo__contact_of(d, e, time)) return 0;
+  return 1;
+}
+
+int ambulo__in_flight(const ambulo__gait_context *context, int node) {
+  int last = context->nodes - 1, distinct = ambulo__distinct_nodes(context, AMBULO__OF_FORCES);
+  if (nothing_holds(context, context->active, node, 0)) return 1;
+  if (!context->before) return 0;
+  if (node > 0) return nothing_holds(context, context->before, node, 1);
+  return distinct == last && nothing_holds(context, context->before, last, 1);
+}
+
+double ambulo__flight_share(const ambulo__gait_context *context, int node) {
+  int last = context->nodes - 1;
+  int inside = nothing_holds(context, context->active, node, 0);
+  if (inside && context->before) {
+    int before =
+        node == 0 && ambulo__distinct_nodes(context, AMBULO__OF_FORCES) == last ? last : node;
+    inside = nothing_holds(context, context->before, before, node > 0 || before > 0);
+  }
+  return inside ? 1.0 : beside_contact;
+}
+
+/* ------------------------------------------------------------------- rows */
+
+typedef struct flight {
+  const ambulo__gait_context *context;
+  int node;
+  double weight, tolerance; /* W, N; e */
+  ambulo__row_table *table;
+} flight;
+
+static const char subject[] = "body";
+
+static void force_rows(const flight *w, const double axis[3], const char *lower,
+                       const char *upper) {
+  const ambulo__gait_context *context = w->context;
+  ambulo__bounded_name name = {AMBULO__KIND_FLIGHT, subject, lower, upper, AMBULO__BODY_WEIGHTS};
+  ambulo__linear form = {.count = 0};
+  ambulo__linear_add(&form, ambulo__channel_force(&context->channels, 0), axis, 1.0 / w->weight);
+  ambulo__bounded_rows(context, w->node, &name, &form, -w->tolerance, w->tolerance, w->table);
+}
+
+static void spin_rows(const flight *w, const double axis[3], const char *lower, const char *upper) {
+  const ambulo__channels *channels = &w->context->channels;
+  ambulo__spin spin = {.bound = w->tolerance * ambulo__flight_arm(w->context->model),
+                       .weight = w->weight,
+                       .moment = ambulo__channel_moment(channels, 0),
+                       .force = ambulo__channel_force(channels, 0),
+                       .center = ambulo__channel_center(channels, 0)};
+  for (int i = 0; i < 3; i++) spin.axis[i] = axis[i];
+  for (int side = 0; side < 2; side++) {
+    spin.sign = side ? -1.0 : 1.0;
+    ambulo__row_spin(w->table, AMBULO__KIND_FLIGHT, subject, side ? upper : lower, w->node,
+                     w->context->times[w->node], &spin);
+  }
+}
+
+/* (F.1), (F.2) no force, no moment about the centre of mass */
+void ambulo__flight_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  const ambulo_model *m = context->model;
+  int spatial = ambulo__model_moves_sideways(m);
+  int distinct = ambulo__distinct_nodes(context, AMBULO__OF_FORCES);
+  double tolerance = context->definition->ground_reaction.flight_tolerance;
+  flight w = {.context = context, .weight = ambulo__model_weight(m), .table = table};
+  for (w.node = 0; w.node < distinct; w.node++) {
+    if (!ambulo__in_flight(context, w.node)) continue;
+    w.tolerance = tolerance * ambulo__flight_share(context, w.node);
+    force_rows(&w, m->forward, "pushed backward", "pushed forward");
+    if (spatial) force_rows(&w, m->left, "pushed to the right", "pushed to the left");
+    force_rows(&w, m->up, "pushed down", "pushed up");
+    if (spatial) spin_rows(&w, m->forward, "tipped to the left", "tipped to the right");
+    spin_rows(&w, m->left, "tipped backward", "tipped forward");
+    if (spatial) spin_rows(&w, m->up, "turned to the right", "turned to the left");
+  }
+}
