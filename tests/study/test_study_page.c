@@ -85,6 +85,30 @@ static void without_room_there_are_no_motions(void **state) {
   fake_batch_close(&b);
 }
 
+/* no page is larger than it may be, from one without motions on */
+static void pages_keep_to_their_size(void **state) {
+  fake_batch b;
+  const char *folder = study_folder(state, &b), *path = scratch_path(state, "page.html");
+  ambulo_page_options options = ambulo_page_options_default();
+  double size[2], count = 20.0;
+  for (int i = 0; i < 2; i++) {
+    options.megabytes = i ? 3.0 : 0.0;
+    assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, NULL), AMBULO_OK);
+    char *page = read_whole(path);
+    size[i] = (double)strlen(page);
+    free(page);
+  }
+  for (int i = 1; i < (int)count; i++) {
+    double most = size[0] + 100.0 + (size[1] - size[0]) * i / count;
+    options.megabytes = 1e-6 * most;
+    assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, NULL), AMBULO_OK);
+    char *page = read_whole(path);
+    assert_true((double)strlen(page) <= most);
+    free(page);
+  }
+  fake_batch_close(&b);
+}
+
 static void what_is_refused(void **state) {
   fake_batch b;
   const char *folder = study_folder(state, &b), *path = scratch_path(state, "page.html");
@@ -121,8 +145,8 @@ static void memory_may_run_out_anywhere(void **state) {
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
-  const struct CMUnitTest tests[] = {TEST(a_page_of_a_study),
-                                     TEST(without_room_there_are_no_motions), TEST(what_is_refused),
-                                     TEST(memory_may_run_out_anywhere)};
+  const struct CMUnitTest tests[] = {
+      TEST(a_page_of_a_study), TEST(without_room_there_are_no_motions),
+      TEST(pages_keep_to_their_size), TEST(what_is_refused), TEST(memory_may_run_out_anywhere)};
   return cmocka_run_group_tests_name("study/study_page", tests, NULL, NULL);
 }

@@ -160,6 +160,19 @@ static void a_named_file_is_part_of_the_key(void **state) {
   ambulo_sweep_free(changed);
 }
 
+static void the_base_problem_is_part_of_the_key(void **state) {
+  const char *text = "axes:\n  - {key: time.duration, values: [1]}\n";
+  ambulo_sweep *s = loaded(state, text), *changed = NULL;
+  char problem[sizeof sweep_problem];
+  memcpy(problem, sweep_problem, sizeof problem);
+  strstr(problem, "weight: 1")[8] = '2';
+  assert_int_equal(sweep_load_over(state, problem, text, NULL, NULL, &changed), AMBULO_OK);
+  assert_string_equal(case_of(s, 0).id, case_of(changed, 0).id);
+  assert_true(case_of(s, 0).key != case_of(changed, 0).key);
+  ambulo_sweep_free(s);
+  ambulo_sweep_free(changed);
+}
+
 static void a_model_key_is_an_axis(void **state) {
   ambulo_sweep *s =
       loaded(state, "axes:\n  - {key: \"model.links[rod].body.mass\", values: [1, 2]}\n");
@@ -296,6 +309,7 @@ int main(void) {
       TEST(a_latin_hypercube_uses_each_stratum_once),
       TEST(explicit_cases_come_last),
       TEST(a_named_file_is_part_of_the_key),
+      TEST(the_base_problem_is_part_of_the_key),
       TEST(a_model_key_is_an_axis),
       TEST(a_wrong_key_or_value_is_told_with_its_place),
       TEST(names_are_used_once),
