@@ -9,6 +9,7 @@
  * anchor by the term that it has least of. */
 #include "base/diagnostics.h"
 #include "base/numtext.h"
+#include "problem/nlp.h"
 #include "study/study.h"
 
 #include <stdio.h>
@@ -70,54 +71,33 @@ ambulo_status ambulo__sweep_read_front(ambulo_sweep *s, const ambulo__yaml_node 
 
 /* --------------------------------------------------------- the base's terms */
 
-/* The terms of the base problem's file. */
-typedef struct base_terms {
-  const char *name[MOST_TERMS];
-  double weight[MOST_TERMS];
-  int count;
-} base_terms;
-
-static void list_terms(const ambulo__yaml *document, base_terms *terms) {
-  const ambulo__yaml_node *list = ambulo__yaml_get(ambulo__yaml_root(document), "objective");
-  int items = ambulo__yaml_items(list);
-  terms->count = items < MOST_TERMS ? items : MOST_TERMS;
-  for (int i = 0; i < terms->count; i++) {
-    const ambulo__yaml_node *item = ambulo__yaml_item(list, i),
-                            *name = ambulo__yaml_get(item, "name");
-    terms->name[i] = ambulo__yaml_text(name ? name : ambulo__yaml_get(item, "term"));
-    terms->weight[i] = ambulo__yaml_number(ambulo__yaml_get(item, "weight"), 1.0);
-  }
-}
-
 /* "did you mean 'force_rate'?", or the terms that are not in the list yet */
-static void hint_terms(const ambulo_sweep *s, const base_terms *terms, const char *word,
+static void hint_terms(const ambulo_sweep *s, const ambulo_problem *base, const char *word,
                        char hint[HINT]) {
-  const char *near = ambulo__nearest(word, terms->name, (size_t)terms->count);
-  size_t used = 0;
+  const char *name[MOST_TERMS];
+  int count = ambulo_problem_term_count(base), others = 0;
+  if (count > MOST_TERMS) count = MOST_TERMS;
+  for (int i = 0; i < count; i++) name[i] = ambulo_problem_term_name(base, i);
+  const char *near = ambulo__nearest(word, name, (size_t)count);
   hint[0] = '\0';
-  if (near && strcmp(near, word) != 0) {
-    (void)snprintf(hint, HINT, "did you mean '%s'?", near);
-    return;
-  }
-  for (int i = 0; i < terms->count && used < HINT; i++) {
+  if (near && strcmp(near, word) != 0) (void)snprintf(hint, HINT, "did you mean '%s'?", near);
+  for (int i = 0; i < count && (others || !hint[0]); i++) {
     int taken = 0;
-    for (int k = 0; k < s->front.terms; k++) taken |= strcmp(terms->name[i], s->front.name[k]) == 0;
-    if (taken) continue;
-    int length =
-        snprintf(hint + used, HINT - used, "%s%s", used ? ", " : "other terms: ", terms->name[i]);
-    used += length > 0 ? (size_t)length : 0;
+    for (int k = 0; k < s->front.terms; k++) taken |= strcmp(name[i], s->front.name[k]) == 0;
+    size_t used = strlen(hint);
+    if (!taken)
+      (void)snprintf(hint + used, HINT - used, "%s%s", others++ ? ", " : "other terms: ", name[i]);
   }
 }
 
-static ambulo_status take_term(ambulo_sweep *s, const base_terms *terms,
+static ambulo_status take_term(ambulo_sweep *s, const ambulo_problem *base,
                                const ambulo__yaml_node *node, int index) {
   char hint[HINT], key[48], name[AMBULO__SWEEP_TEXT];
   const char *word = s->front.name[index];
-  int found = -1;
-  for (int i = 0; i < terms->count && found < 0; i++)
-    if (strcmp(terms->name[i], word) == 0) found = i;
-  hint_terms(s, terms, word, hint);
-  if (found < 0)
+  int found = 0, count = ambulo_problem_term_count(base);
+  while (found < count && strcmp(ambulo_problem_term_name(base, found), word) != 0) found++;
+  hint_terms(s, base, word, hint);
+  if (found == count)
     return ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint[0] ? hint : NULL,
                               "unknown term (got '%s'); expected a term of the base problem's "
                               "objective",
@@ -126,13 +106,13 @@ static ambulo_status take_term(ambulo_sweep *s, const base_terms *terms,
     if (strcmp(s->front.name[i], word) == 0)
       return ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint[0] ? hint : NULL,
                                 "the term '%s' twice; expected different terms", word);
-  if (!(terms->weight[found] > 0.0))
+  s->front.own[index] = base->definition.terms[found].weight;
+  if (!(s->front.own[index] > 0.0))
     return ambulo__yaml_error(node, AMBULO_E_SCHEMA,
                               "weights of the base problem say how its terms compare",
                               "the term '%s' has no weight in the base problem; expected a "
                               "positive one",
                               word);
-  s->front.own[index] = terms->weight[found];
   ambulo__axis *axis = NULL;
   (void)snprintf(key, sizeof key, "objective[%d].weight", found);
   (void)snprintf(name, sizeof name, "weight(%.200s)", word);
@@ -181,16 +161,12 @@ ambulo_status ambulo__sweep_append_point(ambulo_sweep *s, const ambulo__front_re
   return ambulo__sweep_append(s, name, overrides, s->axes, request->from, diagnostics, index);
 }
 
-ambulo_status ambulo__sweep_build_front(ambulo_sweep *s, const ambulo__yaml_node *node) {
+ambulo_status ambulo__sweep_build_front(ambulo_sweep *s, const ambulo__yaml_node *node,
+                                        const ambulo_problem *base) {
   const ambulo__yaml_node *list = ambulo__yaml_get(node, "terms");
-  ambulo__yaml *document = NULL;
-  base_terms terms;
-  memset(&terms, 0, sizeof terms);
-  ambulo_status status = ambulo__yaml_load(s->base, &s->allocator, s->diagnostics, &document);
-  if (!status) list_terms(document, &terms);
+  ambulo_status status = AMBULO_OK;
   for (int i = 0; i < s->front.terms && !status; i++)
-    status = take_term(s, &terms, ambulo__yaml_item(list, i), i);
-  ambulo__yaml_free(document);
+    status = take_term(s, base, ambulo__yaml_item(list, i), i);
   int anchor[AMBULO__FRONT_TERMS], count = 0, probe[AMBULO__FRONT_TERMS] = {0};
   double lowest[AMBULO__FRONT_TERMS], range[AMBULO__FRONT_TERMS];
   ambulo__front_request request[AMBULO__FRONT_TERMS];

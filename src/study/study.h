@@ -15,6 +15,7 @@
 #ifndef AMBULO_STUDY_STUDY_H
 #define AMBULO_STUDY_STUDY_H
 
+#include "ambulo/problem.h"
 #include "ambulo/tools/batch.h"
 #include "base/alloc.h"
 #include "formats/yaml_node.h"
@@ -206,7 +207,8 @@ int ambulo__read_key(const char *text, unsigned long long *key);
 /* `front`, before and after the base problem was loaded: its terms become axes, its first ends
  * cases. The document knows the faults; E_MEMORY. */
 ambulo_status ambulo__sweep_read_front(ambulo_sweep *sweep, const ambulo__yaml_node *root);
-ambulo_status ambulo__sweep_build_front(ambulo_sweep *sweep, const ambulo__yaml_node *node);
+ambulo_status ambulo__sweep_build_front(ambulo_sweep *sweep, const ambulo__yaml_node *node,
+                                        const ambulo_problem *base);
 /* Adds the case of a request, whose points have the places of the cases; *index as of
  * ambulo__sweep_append, as are errors. */
 ambulo_status ambulo__sweep_append_point(ambulo_sweep *sweep, const ambulo__front_request *request,

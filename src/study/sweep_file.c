@@ -253,8 +253,9 @@ static ambulo_status read_sweep(ambulo_sweep *s, const ambulo__yaml *document) {
   ambulo_problem *problem = NULL;
   if (!status) status = read_base(s, ambulo__yaml_get(root, "base"), &problem);
   if (!status)
-    status = s->front.terms > 0 ? ambulo__sweep_build_front(s, ambulo__yaml_get(root, "front"))
-                                : ambulo__sweep_build_cases(s, ambulo__yaml_get(root, "cases"));
+    status = s->front.terms > 0
+                 ? ambulo__sweep_build_front(s, ambulo__yaml_get(root, "front"), problem)
+                 : ambulo__sweep_build_cases(s, ambulo__yaml_get(root, "cases"));
   if (!status) status = ambulo__yaml_finish(document);
   if (!status) status = fill_titles(s, ambulo_problem_model(problem));
   ambulo_problem_free(problem);
