@@ -108,7 +108,7 @@ ambulo_status ambulo__record_take_result(const char *directory, const char *id,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics, ambulo__record *record,
                                          int *taken);
-/* Whether it ended for want of time or memory, and there is more of it now (0: no limit). */
+/* Whether it ran out of time or memory, and may have more now (0: no limit). */
 int ambulo__record_was_cut(const ambulo__record *record, double seconds, int megabytes);
 
 /* ----------------------------------------------------------------- batch_run.c */
@@ -126,7 +126,7 @@ typedef struct ambulo__progress {
   unsigned char state;       /* ambulo__case_state */
   unsigned char solved;      /* 1: has a valid solution */
   unsigned char attempts;    /* that were killed from outside */
-  unsigned char damaged;     /* 1: told, and to be computed again */
+  unsigned char damaged;     /* 1: reported, and to be computed again */
   int next;                  /* the case that continues from this one; -1: none */
   unsigned long long origin; /* of one that is done: see ambulo__record */
 } ambulo__progress;

@@ -261,8 +261,8 @@ static int find_holder(int file, off_t start, off_t length, char holder[AMBULO__
   return 1;
 }
 
-static ambulo_status is_held(ambulo_diagnostics *diagnostics, const char *path,
-                             const char *holder) {
+static ambulo_status refuse_lock(ambulo_diagnostics *diagnostics, const char *path,
+                                 const char *holder) {
   ambulo__place place = {path, 0, 0, NULL};
   return ambulo__error(diagnostics, AMBULO_E_IO, place,
                        "wait for it, or stop it; it then resumes where it was",
@@ -276,7 +276,7 @@ static ambulo_status take(int file, const char *path, short type, off_t start, o
   if (fcntl(file, F_SETLK, &r) == 0) return AMBULO_OK;
   if (errno != EACCES && errno != EAGAIN) return ambulo__io_error(diagnostics, path, "lock");
   (void)find_holder(file, start, length, holder);
-  return is_held(diagnostics, path, holder);
+  return refuse_lock(diagnostics, path, holder);
 }
 
 /* Shards of another k would compute the same cases. Each run looks after it holds its own lock,
@@ -288,7 +288,7 @@ static ambulo_status take_shard(int file, const char *path, int shard, int shard
   if (!status) status = take(file, path, F_RDLCK, FIRST + shards, 1, diagnostics);
   if (!status && (find_holder(file, FIRST, shards, holder) ||
                   find_holder(file, FIRST + shards + 1, 0, holder)))
-    status = is_held(diagnostics, path, holder);
+    status = refuse_lock(diagnostics, path, holder);
   return status;
 }
 

@@ -80,8 +80,8 @@ static int may_start(const ambulo__supervisor *batch, int k) {
          (previous < 0 || batch->of[previous].state == AMBULO__CASE_DONE);
 }
 
-static void tell_damage(const ambulo__supervisor *batch, const char *id,
-                        const ambulo__damage *damage) {
+static void report_damage(const ambulo__supervisor *batch, const char *id,
+                          const ambulo__damage *damage) {
   char *path = ambulo__case_path(batch->allocator, batch->directory, id, damage->ending);
   ambulo__place place = {path ? path : batch->directory, 0, 0, NULL};
   ambulo__warning(batch->diagnostics, place, NULL, "damaged: %s; the case is computed again",
@@ -102,7 +102,7 @@ static ambulo_status take_record(ambulo__supervisor *batch, int k) {
                                              batch->allocator, &finding, &record, &damage);
   if (status) return status;
   batch->of[k].damaged = finding == AMBULO__FOUND_DAMAGED;
-  if (batch->of[k].damaged) tell_damage(batch, one->id, &damage);
+  if (batch->of[k].damaged) report_damage(batch, one->id, &damage);
   if (finding != AMBULO__FOUND_INTACT || record.origin != ambulo__queue_origin(batch, k) ||
       ambulo__record_was_cut(&record, batch->case_seconds, batch->case_megabytes))
     return AMBULO_OK;

@@ -1,7 +1,7 @@
 /* study/batch_worker.c - the process of one case: started, and what its end means.
  *
  * The worker limits its own address space and asks to die with its parent (src/cli/worker.c):
- * it is told by AMBULO_WORKER="<parent process> <megabytes>".
+ * it reads both from AMBULO_WORKER="<parent process> <megabytes>".
  *
  * Recorded: whatever the case itself brought about (a verdict, invalid input, a crash, its time
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM

@@ -210,13 +210,13 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
   return ambulo__batch_run(sweep, directory, options, allocator, diagnostics, progress);
 }
 
-/* --------------------------------------------------------- what to know of it */
+/* --------------------------------------------------------- warnings */
 
 /* mean gaps; narrower ones are as even as points can be */
 static const double wide = 1.5;
 
-static void tell_gap(const ambulo__table *t, const ambulo__front_gap *gap,
-                     ambulo_diagnostics *diagnostics) {
+static void warn_of_gap(const ambulo__table *t, const ambulo__front_gap *gap,
+                        ambulo_diagnostics *diagnostics) {
   const ambulo__sweep_case *cases = t->study->cases;
   const ambulo__front_point *point = t->front.point;
   ambulo__place place = {t->directory, 0, 0, NULL};
@@ -229,8 +229,8 @@ static void tell_gap(const ambulo__table *t, const ambulo__front_gap *gap,
                   t->front.name[0], point[gap->a].value[0], point[gap->b].value[0]);
 }
 
-static ambulo_status tell_gaps(const ambulo__table *t, ambulo_diagnostics *diagnostics,
-                               ambulo_front_census *census) {
+static ambulo_status warn_of_gaps(const ambulo__table *t, ambulo_diagnostics *diagnostics,
+                                  ambulo_front_census *census) {
   const ambulo_allocator *a = &t->study->allocator;
   int gaps = 0;
   ambulo__front_gap *gap = ambulo__alloc(a, (size_t)t->report.on + 1, sizeof *gap);
@@ -239,14 +239,14 @@ static ambulo_status tell_gaps(const ambulo__table *t, ambulo_diagnostics *diagn
   for (int i = 0; i < gaps; i++) {
     if (!gap[i].refused || gap[i].length <= wide * t->report.mean) continue;
     census->refused++;
-    tell_gap(t, &gap[i], diagnostics);
+    warn_of_gap(t, &gap[i], diagnostics);
   }
   ambulo__free(a, gap);
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__front_tell(const ambulo__table *t, ambulo_diagnostics *diagnostics,
-                                 ambulo_front_census *census) {
+ambulo_status ambulo__front_census(const ambulo__table *t, ambulo_diagnostics *diagnostics,
+                                   ambulo_front_census *census) {
   const ambulo__front *f = &t->front;
   const ambulo__front_report *report = &t->report;
   ambulo__place place = {t->directory, 0, 0, NULL};
@@ -263,5 +263,5 @@ ambulo_status ambulo__front_tell(const ambulo__table *t, ambulo_diagnostics *dia
   if (report->complete && !report->conflict)
     ambulo__warning(diagnostics, place, NULL,
                     "no front: the terms are not at odds, one motion is best for all");
-  return f->terms == 2 && report->on > 1 ? tell_gaps(t, diagnostics, census) : AMBULO_OK;
+  return f->terms == 2 && report->on > 1 ? warn_of_gaps(t, diagnostics, census) : AMBULO_OK;
 }

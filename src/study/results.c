@@ -252,8 +252,8 @@ static ambulo_status add_row(void *user, const ambulo__row *row) {
   return c->csv.failed || c->lines.failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
-/* an output that no case has is most likely misspelt */
-static void warn_of_strangers(const collector *c) {
+/* an output that no case has is probably misspelt */
+static void warn_of_unknown_outputs(const collector *c) {
   const ambulo__table *t = c->table;
   for (int i = 0; i < t->outputs && c->solved >= 0; i++) {
     if (c->found[i] > 0) continue;
@@ -293,9 +293,9 @@ static ambulo_status collect(const ambulo__table *t, ambulo_diagnostics *diagnos
   if (!status) status = ambulo__lock_holder(t->directory, a, diagnostics, census->holder);
   if (!status) status = write_text(&c, "results.csv", &c.csv);
   if (!status) status = write_text(&c, "results.jsonl", &c.lines);
-  if (!status) warn_of_strangers(&c);
+  if (!status) warn_of_unknown_outputs(&c);
   if (!status && t->study->front.terms > 0)
-    status = ambulo__front_tell(t, diagnostics, &census->front);
+    status = ambulo__front_census(t, diagnostics, &census->front);
   ambulo__free(a, c.found);
   ambulo__text_free(&c.csv);
   ambulo__text_free(&c.lines);
@@ -310,7 +310,7 @@ typedef struct verification {
   void *user;
 } verification;
 
-static ambulo_status tell_damage(void *user, const ambulo__row *row) {
+static ambulo_status report_damage(void *user, const ambulo__row *row) {
   const verification *v = user;
   const ambulo_allocator *a = &v->table->study->allocator;
   if (!row->damage || !v->damaged) return AMBULO_OK;
@@ -333,7 +333,7 @@ static ambulo_status inspect(const char *directory, ambulo__depth depth, verific
   if (!status && depth == AMBULO__CELLS) {
     status = collect(&table, diagnostics, &counted);
   } else if (!status) {
-    status = ambulo__table_rows(&table, depth, tell_damage, v, &counted);
+    status = ambulo__table_rows(&table, depth, report_damage, v, &counted);
     if (!status)
       status = ambulo__lock_holder(directory, &table.study->allocator, diagnostics, counted.holder);
   }

@@ -72,7 +72,7 @@ ambulo_status ambulo__table_open(const char *directory, ambulo__depth depth,
                                  ambulo__table *table);
 void ambulo__table_close(ambulo__table *table);
 /* Calls `take` for each case in order. Stops at the first failure of `take`, or where memory runs
- * out (E_MEMORY): no case is called missing or corrupt for want of it. census (may be NULL) is
+ * out (E_MEMORY): a lack of memory never makes a case missing or corrupt. census (may be NULL) is
  * counted. */
 ambulo_status ambulo__table_rows(const ambulo__table *table, ambulo__depth depth,
                                  ambulo_status (*take)(void *user, const ambulo__row *row),
@@ -80,7 +80,7 @@ ambulo_status ambulo__table_rows(const ambulo__table *table, ambulo__depth depth
 
 /* front_run.c: fills the census, and warns of what a reader of the front has to know: gaps that
  * refuse to close, terms that are not at odds, anchors without a solution. E_MEMORY. */
-ambulo_status ambulo__front_tell(const ambulo__table *table, ambulo_diagnostics *diagnostics,
-                                 ambulo_front_census *census);
+ambulo_status ambulo__front_census(const ambulo__table *table, ambulo_diagnostics *diagnostics,
+                                   ambulo_front_census *census);
 
 #endif

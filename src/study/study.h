@@ -102,7 +102,8 @@ struct ambulo_sweep {
   double case_seconds;          /* 0: no limit */
   int case_megabytes;           /* 0: no limit */
   unsigned long long base_hash; /* of the problem and the versions */
-  int trusted; /* cases before it were run or verified by this process: their files are believed */
+  int trusted; /* cases before it were run or verified by this process: their files are not read
+                  again */
 };
 
 /* ---------------------------------------------------------------- sweep_file.c */
@@ -120,8 +121,8 @@ static inline ambulo_status ambulo__sweep_copy(const ambulo_sweep *sweep,
   *copy = ambulo__strdup(&sweep->allocator, ambulo__yaml_text(node));
   return *copy ? AMBULO_OK : AMBULO_E_MEMORY;
 }
-/* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
- * was not read any more is no stranger. Returns `status`. */
+/* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory the
+ * keys that were not read are not unknown. Returns `status`. */
 static inline ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section,
                                                 ambulo_status status) {
   if (status != AMBULO_E_MEMORY) ambulo__yaml_close(section);
@@ -169,8 +170,8 @@ void ambulo__sweep_free_cases(ambulo_sweep *sweep);
  * What makes a case list wrong before anything is computed. Axes: two of one name or key. Filters:
  * neither side names an axis. Name: a {word} in it is no axis, or a brace has no other half. Cases:
  * two of one name; and `probes` are read together with the base problem, among them each value of
- * each axis once, so that a key that does not exist or a value of the wrong kind is told now and
- * not by every case. */
+ * each axis once, so that an unknown key or a value of the wrong kind is reported now, not once per
+ * case. */
 enum { AMBULO__SWEEP_PROBES = 200 };
 ambulo_status ambulo__sweep_check_axes(ambulo_sweep *sweep);
 ambulo_status ambulo__sweep_check_filters(ambulo_sweep *sweep, const ambulo__yaml_node *filters);

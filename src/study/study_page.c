@@ -149,7 +149,7 @@ static ambulo_status add_study(page *p, double room, ambulo__text_buffer *out,
   return status ? status : ambulo__text_status(out);
 }
 
-static void tell_left_out(const page *p, double megabytes, ambulo_diagnostics *diagnostics) {
+static void warn_of_left_out(const page *p, double megabytes, ambulo_diagnostics *diagnostics) {
   ambulo__place place = {.file = p->table.directory};
   int left_out = p->count;
   for (int i = 0; i < p->count; i++) left_out -= p->shown[i];
@@ -171,7 +171,7 @@ static ambulo_status fill(page *p, double megabytes, ambulo__text_buffer *out,
   ambulo_status status = p->number && p->folder && p->shown ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) status = ambulo__table_rows(&p->table, AMBULO__CELLS, add_row, p, NULL);
   if (!status) status = add_study(p, room, out, diagnostics);
-  if (!status) tell_left_out(p, megabytes, diagnostics);
+  if (!status) warn_of_left_out(p, megabytes, diagnostics);
   for (int i = 0; i < p->count; i++) ambulo__free(a, p->folder[i]);
   ambulo__free(a, p->number);
   ambulo__free(a, (void *)p->folder);

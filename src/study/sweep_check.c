@@ -232,7 +232,7 @@ static int axis_of_message(const ambulo_sweep *s, const ambulo_diagnostic *messa
 }
 
 /* why a file that a value names cannot be read: what was said of it before */
-static void tell_causes(ambulo_sweep *s, const ambulo_diagnostics *list, size_t count) {
+static void report_causes(ambulo_sweep *s, const ambulo_diagnostics *list, size_t count) {
   for (size_t k = 0; k < count; k++) {
     const ambulo_diagnostic *m = ambulo_diagnostics_get(list, k);
     ambulo__place place = {m->file, m->line, m->column, m->path};
@@ -250,10 +250,10 @@ static ambulo__spot spot_of_value(const ambulo_sweep *s, int index, int i) {
   return axis->spot;
 }
 
-/* a message of the problem's reader, told at the key (it has no position in the value) or at the
- * value that it is about */
-static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
-                          const ambulo_diagnostics *list) {
+/* a message of the problem's reader, reported at the key (it has no position in the value) or at
+ * the value that it is about */
+static ambulo_status report_fault(ambulo_sweep *s, int index, ambulo_status status,
+                                  const ambulo_diagnostics *list) {
   const ambulo_diagnostic *message = NULL;
   int i = -1;
   size_t causes = 0;
@@ -268,7 +268,7 @@ static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
                          message ? message->hint : NULL, "case '%s': %s", s->cases[index].name,
                          message ? message->message : ambulo_status_text(status));
   }
-  tell_causes(s, list, causes);
+  report_causes(s, list, causes);
   ambulo__spot spot = message->line > 0 ? spot_of_value(s, index, i) : s->axis[i].spot;
   return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, spot), message->hint, "%s: %s",
                        s->axis[i].key, message->message);
@@ -286,7 +286,7 @@ static ambulo_status probe(ambulo_sweep *s, int index) {
   ambulo_problem_free(problem);
   if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO ||
       status == AMBULO_E_ARGUMENT)
-    status = tell(s, index, status, list);
+    status = report_fault(s, index, status, list);
   else if (status != AMBULO_E_MEMORY)
     status = AMBULO_OK;
   ambulo_diagnostics_free(list);

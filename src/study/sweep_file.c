@@ -167,8 +167,8 @@ static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) 
                             "unknown axis (got '%s'); expected the name of an axis", name);
 }
 
-/* the base problem is loaded once: a fault in it is told now, and its hash enters every key. *base
- * is to be freed, also where that fails */
+/* the base problem is loaded once: its faults are reported now, and its hash enters every key.
+ * *base is to be freed, also where that fails */
 static ambulo_status load_base(ambulo_sweep *s, ambulo_problem **base) {
   ambulo_problem *problem = NULL;
   ambulo_versions versions;
@@ -206,7 +206,7 @@ static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node,
                             s->base);
 }
 
-/* a fault in one key must not make strangers of those that would have been read after it */
+/* a fault in one key must not make the keys behind it unknown */
 static void expect_all(const ambulo__yaml_node *root) {
   static const char *const keys[] = {"axes",   "combine", "table",   "latin_hypercube",
                                      "random", "filters", "outputs", "start_from",
