@@ -174,24 +174,6 @@ static void sizes_are_what_is_stored(void **state) {
   ambulo__pool_clear(&pool);
 }
 
-static void a_copied_factor_solves(void **state) {
-  (void)state;
-  banded m;
-  ambulo__band other;
-  double x[N], y[N];
-  fill(&m, 8);
-  assert_int_equal(ambulo__band_create(&m.pool, N, KD, &other), AMBULO_OK);
-  assert_int_equal(ambulo__band_factor(&m.band), 0);
-  ambulo__band_copy_factor(&m.band, &other);
-  for (int i = 0; i < N; i++) x[i] = y[i] = sin(i);
-  ambulo__band_forward(&m.band, x);
-  ambulo__band_backward(&m.band, x);
-  ambulo__band_forward(&other, y);
-  ambulo__band_backward(&other, y);
-  assert_memory_equal(x, y, sizeof x);
-  ambulo__pool_clear(&m.pool);
-}
-
 /* on the diagonal */
 static void what_is_no_number_is_no_factor(void **state) {
   (void)state;
@@ -289,7 +271,6 @@ int main(void) {
       cmocka_unit_test(a_row_has_a_length_in_the_diagonal),
       cmocka_unit_test(indefinite_matrix_is_refused),
       cmocka_unit_test(sizes_are_what_is_stored),
-      cmocka_unit_test(a_copied_factor_solves),
       cmocka_unit_test(what_is_no_number_is_no_factor),
       cmocka_unit_test(rows_are_spread),
   };

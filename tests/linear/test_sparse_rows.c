@@ -23,7 +23,7 @@ static void check_gradients(const char *name, const char *override, double size)
   engine_fixture f;
   unsigned seed = 5;
   engine_open_with(&f, name, override);
-  ambulo__rows_split *rows = &f.engine->linearized.rows;
+  ambulo__row_roles *rows = &f.engine->linearized.rows;
   for (int j = 0; j < f.n; j++) f.x[j] = size * random_number(&seed);
   assert_int_equal(ambulo__evaluate_jacobian(f.engine->workspace, f.x), AMBULO_OK);
   ambulo__sparse_rows_fill(&rows->equality, f.engine->workspace, 0);

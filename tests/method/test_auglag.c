@@ -296,7 +296,7 @@ static void the_first_trial_is_the_model_step(void **state) {
     ambulo__band_upper_multiply(&e->linearized.whitener, step);
     double size = ambulo__largest(step, (size_t)f.n);
     assert_true(size > 0.0);
-    for (int j = 0; j < f.n; j++) assert_close((e->held->w[j] - part * step[j]) / size, 0.0, 1e-8);
+    for (int j = 0; j < f.n; j++) assert_close((e->last->w[j] - part * step[j]) / size, 0.0, 1e-8);
     free(step);
     engine_close(&f);
   }

@@ -8,7 +8,7 @@ static void open_at_model_step(engine_fixture *f) {
   engine_open_restored(f, "yardstick_12");
   for (int i = 0; i < f->engine->setup->inequalities; i += 5) f->engine->iterate.lambda[i] = 0.1;
   assert_int_equal(ambulo__model_step(f->engine, &predicted), 0);
-  ambulo__held_forget(f->engine);
+  ambulo__last_point_forget(f->engine);
 }
 
 static void gradient_is_the_slope(void **state) {
@@ -63,23 +63,23 @@ static void values_are_the_formula(void **state) {
   double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
   int counted = f.run.evaluations;
   double sum = 0.0, squares = 0.0;
-  e->held->ceiling = -HUGE_VAL;
+  e->last->ceiling = -HUGE_VAL;
   double value = ambulo__augmented(e, w, NULL);
   assert_int_equal(f.run.evaluations, counted + 1);
   assert_true(ambulo__augmented(e, w, g) == value);
   assert_int_equal(f.run.evaluations, counted + 1);
   for (int i = 0; i < e->setup->inequalities; i++) {
-    double p = fmax(0.0, e->iterate.lambda[i] + e->iterate.rho * e->held->trial.excess[i]);
-    assert_true(e->held->trial.multiplier[i] == p);
+    double p = fmax(0.0, e->iterate.lambda[i] + e->iterate.rho * e->last->trial.excess[i]);
+    assert_true(e->last->trial.multiplier[i] == p);
     sum += p * p - e->iterate.lambda[i] * e->iterate.lambda[i];
   }
   assert_true(sum != 0.0);
   assert_close(value,
                e->setup->objective_scale * e->workspace->objective + sum / (2.0 * e->iterate.rho),
                1e-12);
-  assert_true(e->held->ceiling == value);
+  assert_true(e->last->ceiling == value);
   for (int i = 0; i < e->setup->equalities; i++)
-    assert_true(e->held->trial.equality_multiplier[i] == e->iterate.equality_multiplier[i]);
+    assert_true(e->last->trial.equality_multiplier[i] == e->iterate.equality_multiplier[i]);
   for (int j = 0; j < f.n; j++) {
     w[j] = 1e6 * (j % 2 ? 1.0 : -1.0);
     squares += w[j] * w[j];
@@ -87,7 +87,7 @@ static void values_are_the_formula(void **state) {
   double bowl = ambulo__augmented(e, w, g), height = 1.0 + fabs(value);
   assert_close(bowl / (value + height * (1.0 + squares)), 1.0, 1e-12);
   for (int j = 0; j < f.n; j++) assert_close(g[j] / (2.0 * height * w[j]), 1.0, 1e-12);
-  assert_true(e->held->ceiling == value);
+  assert_true(e->last->ceiling == value);
   free(w);
   free(g);
   engine_close(&f);
@@ -101,7 +101,7 @@ static void what_is_not_finite_is_given_up(void **state) {
     open_at_model_step(&f);
     ambulo__engine *e = f.engine;
     double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
-    e->held->ceiling = -HUGE_VAL;
+    e->last->ceiling = -HUGE_VAL;
     if (run == 0) e->iterate.lambda[0] = INFINITY;
     double value = ambulo__augmented(e, w, NULL);
     if (run == 0) assert_true(value == 1.0); /* the bottom of the bowl */
@@ -155,7 +155,7 @@ static void centre_stays(void **state) {
   double value = ambulo__chart_value(&l.chart, l.f.engine, l.w, NULL);
   assert_true(value == l.chart.start);
   for (int j = 0; j < l.f.n; j++)
-    assert_close(l.f.engine->held->trial.x[j], l.f.engine->iterate.x[j], 1e-12);
+    assert_close(l.f.engine->last->trial.x[j], l.f.engine->iterate.x[j], 1e-12);
   end(&l);
 }
 
@@ -167,7 +167,7 @@ static void test_chart_gradient_is_the_slope(void **state) {
   lay(&l, stretch);
   l.f.engine->retraction->adjoint_tolerance = 1e-7;
   l.f.engine->retraction->tolerance = 1e-11;
-  ambulo__held_forget(l.f.engine);
+  ambulo__last_point_forget(l.f.engine);
   double slope = 0.0, *d = calloc((size_t)l.f.n, sizeof *d);
   for (int j = 0; j < l.f.n; j++) {
     l.w[j] += 0.3 * random_number(&seed);
@@ -234,26 +234,26 @@ static void no_step_is_wild(void **state) {
   end(&l);
 }
 
-/* what was held belongs to another centre */
+/* what was kept belongs to another centre */
 static void a_new_centre_is_evaluated(void **state) {
   (void)state;
   laid l;
   lay(&l, 1.0);
   ambulo__engine *e = l.f.engine;
   double before = l.chart.start, predicted;
-  assert_true(e->held->ceiling == before);
+  assert_true(e->last->ceiling == before);
   double t = ambulo__step_limit(e->setup, e->quadratic->total, 0.1);
   (void)t;
   memcpy(l.v, l.chart.step, (size_t)l.f.n * sizeof *l.v);
   memset(l.chart.whitened, 0, (size_t)l.f.n * sizeof *l.v);
   (void)ambulo__augmented(e, l.v, NULL);
-  memcpy(e->iterate.x, e->held->trial.x, (size_t)l.f.n * sizeof *l.v);
+  memcpy(e->iterate.x, e->last->trial.x, (size_t)l.f.n * sizeof *l.v);
   (void)ambulo__augmented(e, l.chart.whitened, NULL);
   assert_int_equal(ambulo__model_step(e, &predicted), 0);
-  e->held->ceiling = 1e9;
+  e->last->ceiling = 1e9;
   assert_int_equal(ambulo__chart_lay(&l.chart, e, l.w, 1.0), 1);
   assert_true(l.chart.start != before && l.chart.start < before);
-  assert_true(e->held->ceiling == l.chart.start);
+  assert_true(e->last->ceiling == l.chart.start);
   for (int j = 0; j < l.f.n; j++) e->iterate.x[j] += j % 3 ? 50.0 : -70.0;
   assert_int_equal(ambulo__chart_lay(&l.chart, e, l.w, 1.0), 0);
   end(&l);

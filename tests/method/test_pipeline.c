@@ -156,7 +156,7 @@ static void each_start_has_its_penalty_and_damping(void **state) {
     open_stopped(&f);
     ambulo__engine *e = f.engine;
     assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
-    e->iterate.carried_objective =
+    e->iterate.coarse_objective =
         cases[c].carried < 0 ? -1.0 : cases[c].carried * e->workspace->objective;
     assert_int_equal(ambulo__pipeline(e, cases[c].stage, f.x), AMBULO_OK);
     double interval = f.problem->definition.duration / ambulo__basis_intervals(f.problem->basis);
@@ -164,7 +164,7 @@ static void each_start_has_its_penalty_and_damping(void **state) {
     assert_close(e->iterate.mu / interval, cases[c].mu, 1e-12);
     assert_true(e->iterate.lambda[3] == cases[c].lambda &&
                 e->iterate.equality_multiplier[0] == 0.0);
-    assert_true(e->iterate.carried_objective == -1.0 && e->reached.value == HUGE_VAL);
+    assert_true(e->iterate.coarse_objective == -1.0 && e->reached.value == HUGE_VAL);
     engine_close(&f);
   }
 }
@@ -305,7 +305,7 @@ static void long_rows_are_weakened(void **state) {
   engine_open_restored(&f, "walk_normal");
   ambulo__balance_rows(f.engine, f.x);
   for (int i = 0; i < f.engine->setup->inequalities; i++) {
-    const ambulo__rows_split *rows = f.engine->setup->rows;
+    const ambulo__row_roles *rows = f.engine->setup->rows;
     double length = length_in_units(&f, i);
     double divided = rows->size[i] / rows->unit[i];
     if (fabs(length - 1.0) < 1e-9) continue;

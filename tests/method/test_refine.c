@@ -19,7 +19,7 @@ static void the_next_grid_is_carried_over(void **state) {
   for (int i = 0; i < f.engine->setup->inequalities; i++) f.engine->iterate.lambda[i] = -1.0;
   (void)refine(&f, &levels);
   assert_int_equal(levels, 1);
-  assert_close(f.engine->iterate.carried_objective / 0.35640, 1.0, 2e-2); /* it is left early */
+  assert_close(f.engine->iterate.coarse_objective / 0.35640, 1.0, 2e-2); /* it is left early */
   for (int i = 0; i < f.engine->setup->inequalities; i++) {
     assert_true(f.engine->iterate.lambda[i] >= 0.0);
     forces += f.engine->iterate.lambda[i] > 0.0;
@@ -36,7 +36,7 @@ static void few_intervals_have_no_coarser_grid(void **state) {
   (void)refine(&f, &levels);
   assert_int_equal(levels, 0);
   for (int j = 0; j < f.n; j++) assert_true(f.x[j] == 0.0);
-  assert_true(f.engine->iterate.carried_objective < 0.0);
+  assert_true(f.engine->iterate.coarse_objective < 0.0);
   assert_int_equal(f.run.evaluations, 0);
   engine_close(&f);
 }
@@ -71,7 +71,7 @@ static void coarse_trajectories_keep_what_two_nodes_hold(void **state) {
   engine_open(&f, "walk_normal");
   (void)refine(&f, &levels);
   assert_int_equal(levels, 1);
-  assert_close(f.engine->iterate.carried_objective / 0.1309, 1.0, 0.05);
+  assert_close(f.engine->iterate.coarse_objective / 0.1309, 1.0, 0.05);
   engine_close(&f);
 }
 
@@ -86,7 +86,7 @@ static void a_grid_without_room_is_left_early(void **state) {
   (void)refine(&f, &levels);
   assert_int_equal(levels, 1);
   assert_in_range(f.run.iterations, 7, 25); /* 72 until nothing helps */
-  assert_true(f.engine->iterate.carried_objective < 0.0);
+  assert_true(f.engine->iterate.coarse_objective < 0.0);
   for (int i = 0; i < f.engine->setup->inequalities; i++)
     assert_true(f.engine->iterate.lambda[i] == 0.0);
   engine_close(&f);
@@ -137,7 +137,7 @@ static const ambulo__table_row *row_of(const ambulo__engine *e, int i) {
 static void on_the_same_grid_nothing_changes(void **state) {
   (void)state;
   engine_fixture f;
-  ambulo__carried carried = {0};
+  ambulo__saved_multipliers saved = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
   engine_open(&f, "support/walk_rigid");
   ambulo__engine *e = f.engine;
@@ -145,15 +145,15 @@ static void on_the_same_grid_nothing_changes(void **state) {
   for (int i = 0; i < e->setup->inequalities; i++)
     e->iterate.lambda[i] = was[i] = i % 3 ? 0.0 : 0.01 * i;
   e->reached.objective = 3.0 * e->setup->objective_scale;
-  assert_int_equal(ambulo__carry_from(e, &a, &carried), AMBULO_OK);
+  assert_int_equal(ambulo__multipliers_save(e, &a, &saved), AMBULO_OK);
   for (int i = 0; i < e->setup->inequalities; i++) e->iterate.lambda[i] = -1.0;
-  assert_true(e->iterate.carried_objective < 0.0);
-  ambulo__carry_to(&carried, e);
-  assert_close(e->iterate.carried_objective, 3.0, 1e-12);
+  assert_true(e->iterate.coarse_objective < 0.0);
+  ambulo__multipliers_transfer(&saved, e);
+  assert_close(e->iterate.coarse_objective, 3.0, 1e-12);
   for (int i = 0; i < e->setup->inequalities; i++)
     assert_close(e->iterate.lambda[i], was[i], 1e-12);
-  ambulo__carry_clear(&a, &carried);
-  assert_null(carried.row);
+  ambulo__multipliers_free(&a, &saved);
+  assert_null(saved.row);
   free(was);
   engine_close(&f);
 }
@@ -163,7 +163,7 @@ static void on_the_same_grid_nothing_changes(void **state) {
 static void densities_are_linear_between_nodes(void **state) {
   (void)state;
   engine_fixture coarse, fine;
-  ambulo__carried carried = {0};
+  ambulo__saved_multipliers saved = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
   engine_open_with(&coarse, "support/walk_rigid", "time.intervals=24");
   engine_open_with(&fine, "support/walk_rigid", "time.intervals=48");
@@ -175,8 +175,8 @@ static void densities_are_linear_between_nodes(void **state) {
     c->iterate.lambda[i] =
         density * coarse.problem->quadrature[row->node] * c->setup->objective_scale / scale;
   }
-  assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
-  ambulo__carry_to(&carried, e);
+  assert_int_equal(ambulo__multipliers_save(c, &a, &saved), AMBULO_OK);
+  ambulo__multipliers_transfer(&saved, e);
   int seen = 0;
   for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(e, i);
@@ -191,7 +191,7 @@ static void densities_are_linear_between_nodes(void **state) {
     seen++;
   }
   assert_true(seen > 100);
-  ambulo__carry_clear(&a, &carried);
+  ambulo__multipliers_free(&a, &saved);
   engine_close(&coarse);
   engine_close(&fine);
 }
@@ -200,7 +200,7 @@ static void densities_are_linear_between_nodes(void **state) {
 static void rows_on_control_points_keep_their_multipliers(void **state) {
   (void)state;
   engine_fixture coarse, fine;
-  ambulo__carried carried = {0};
+  ambulo__saved_multipliers saved = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
   engine_open_with(&coarse, "two_link_reach", "constraints.joint_limits=control_points");
   fine.options = ambulo_options_default();
@@ -213,8 +213,8 @@ static void rows_on_control_points_keep_their_multipliers(void **state) {
   ambulo__engine *c = coarse.engine, *e = fine.engine;
   for (int i = 0; i < c->setup->inequalities; i++)
     c->iterate.lambda[i] = row_of(c, i)->node < 0 ? 2.0 * c->setup->objective_scale : 0.0;
-  assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
-  ambulo__carry_to(&carried, e);
+  assert_int_equal(ambulo__multipliers_save(c, &a, &saved), AMBULO_OK);
+  ambulo__multipliers_transfer(&saved, e);
   int seen = 0;
   for (int i = 0; i < e->setup->inequalities; i++) {
     if (row_of(e, i)->node >= 0) continue;
@@ -222,7 +222,7 @@ static void rows_on_control_points_keep_their_multipliers(void **state) {
     seen++;
   }
   assert_true(seen > 10);
-  ambulo__carry_clear(&a, &carried);
+  ambulo__multipliers_free(&a, &saved);
   engine_close(&fine);
   engine_close(&coarse);
 }
@@ -231,7 +231,7 @@ static void rows_on_control_points_keep_their_multipliers(void **state) {
 static void holes_stay_empty(void **state) {
   (void)state;
   engine_fixture coarse, fine;
-  ambulo__carried carried = {0}, none = {0};
+  ambulo__saved_multipliers saved = {0}, none = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
   engine_open_with(&coarse, "support/walk_rigid", "time.intervals=24");
   engine_open_with(&fine, "support/walk_rigid", "time.intervals=96");
@@ -245,15 +245,15 @@ static void holes_stay_empty(void **state) {
           coarse.problem->quadrature[row->node] * c->setup->objective_scale / scale;
   }
   c->reached.objective = -3.0 * c->setup->objective_scale;
-  assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
+  assert_int_equal(ambulo__multipliers_save(c, &a, &saved), AMBULO_OK);
   int kept = 0; /* the rows from 5 to 10 intervals go */
-  for (int k = 0; k < carried.count; k++) {
-    double at = carried.row[k].time / interval;
-    if (at < 4.5 || at > 10.5) carried.row[kept++] = carried.row[k];
+  for (int k = 0; k < saved.count; k++) {
+    double at = saved.row[k].time / interval;
+    if (at < 4.5 || at > 10.5) saved.row[kept++] = saved.row[k];
   }
-  carried.count = kept;
-  ambulo__carry_to(&carried, e);
-  assert_close(e->iterate.carried_objective, 3.0, 1e-12);
+  saved.count = kept;
+  ambulo__multipliers_transfer(&saved, e);
+  assert_close(e->iterate.coarse_objective, 3.0, 1e-12);
   for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(e, i);
     if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) continue;
@@ -263,10 +263,10 @@ static void holes_stay_empty(void **state) {
     worst = fmax(worst, fabs(density - (at > 4.6 && at < 10.4 ? 0.0 : 1.0)));
   }
   assert_close(worst, 0.0, 1e-9);
-  ambulo__carry_to(&none, e);
-  assert_true(e->iterate.carried_objective == -1.0);
+  ambulo__multipliers_transfer(&none, e);
+  assert_true(e->iterate.coarse_objective == -1.0);
   for (int i = 0; i < e->setup->inequalities; i++) assert_true(e->iterate.lambda[i] == 0.0);
-  ambulo__carry_clear(&a, &carried);
+  ambulo__multipliers_free(&a, &saved);
   engine_close(&coarse);
   engine_close(&fine);
 }

@@ -167,7 +167,7 @@ static void rows_without_a_gradient_have_a_size(void **state) {
   f.x = calloc((size_t)f.problem->variables, sizeof *f.x);
   ambulo__run_begin(&f.run, &f.options);
   assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
-  const ambulo__rows_split *rows = f.engine->setup->rows;
+  const ambulo__row_roles *rows = f.engine->setup->rows;
   int own = 0;
   for (int i = 0; i < rows->inequality.count; i++) {
     if (f.problem->table.rows[rows->inequality.row[i]].kind != AMBULO__KIND_USER) continue;
@@ -202,7 +202,7 @@ static void rows_are_measured_by_their_sizes(void **state) {
   (void)state;
   engine_fixture f;
   engine_open_with(&f, "support/walk_rigid", "constraints.torque_limits=true");
-  ambulo__rows_split *rows = &f.engine->linearized.rows;
+  ambulo__row_roles *rows = &f.engine->linearized.rows;
   int other = 0;
   for (int i = 0; i < rows->inequality.count; i++) {
     double size = f.problem->table.rows[rows->inequality.row[i]].size;

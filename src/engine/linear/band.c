@@ -44,13 +44,6 @@ void ambulo__band_copy(const ambulo__band *from, ambulo__band *to) {
   memcpy(to->a, from->a, size_of(to));
 }
 
-void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to) {
-  size_t tiles = (size_t)ambulo__whole_tiles(to->n) / AMBULO__TILE;
-  ambulo__band_copy(from, to);
-  memcpy(to->corner, from->corner, tiles * AMBULO__CORNER * sizeof *to->corner);
-  memcpy(to->below, from->below, tiles * sizeof *to->below);
-}
-
 void ambulo__band_add_diagonal(ambulo__band *band, double value) {
   for (int j = 0; j < band->n; j++) band->a[(size_t)j * (size_t)band->ld] += value;
 }

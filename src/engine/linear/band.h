@@ -22,7 +22,7 @@
  * control points than orders, there is nothing to win: then it is the rows that become G P.
  *
  * Reading order: band.h, sparse_rows.h, row_blocks.h, band.c, band_kernels.h, band_source.h,
- * product_source.h; border.h, kkt.h, kkt.c; mixing.h.
+ * product_source.h; border.h, kkt.h, kkt.c; kkt.h.
  */
 #ifndef AMBULO_LINEAR_BAND_H
 #define AMBULO_LINEAR_BAND_H
@@ -43,8 +43,6 @@ typedef struct ambulo__band {
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band);
 void ambulo__band_clear(ambulo__band *band);
 void ambulo__band_copy(const ambulo__band *from, ambulo__band *to);
-/* The same of a factor. */
-void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to);
 void ambulo__band_add_diagonal(ambulo__band *band, double value);
 /* Adds `share` of each diagonal element to itself. */
 void ambulo__band_raise_diagonal(ambulo__band *band, double share);

@@ -16,7 +16,7 @@
  *
  * Every pass moves d by M^-1 J'(...) only, that is within H^-1 range(J', C'): retractions
  * built from single passes stay on the same curved surface as exact solves would
- * (retraction.c).
+ * (equalities.c).
  */
 #include "linear/kkt.h"
 #include "linear/parameters.h"

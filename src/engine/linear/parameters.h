@@ -3,11 +3,11 @@
 #ifndef AMBULO_LINEAR_PARAMETERS_H
 #define AMBULO_LINEAR_PARAMETERS_H
 
-/* Error, relative to the parts of a sum, that is rounding. T: kkt (a hundredfold), retraction (0).
+/* Error, relative to the parts of a sum, that is rounding. T: kkt (a hundredfold), equalities (0).
  */
 #define AMBULO__ROUNDING 1e-11
 /* Half of the digits of a double: what is left of a row's gradient that follows from others, of a
- * pivot that has lost too many digits, of a gain that is none. T: update (1e-10), presolve_rank
+ * pivot that has lost too many digits, of a gain that is none. T: border (1e-10), row_roles
  * (0), model_step (1e-3). */
 #define AMBULO__HALF_DIGITS 1e-8
 /* Passes of the method of multipliers (kkt.c): three reach rounding, more are for rows that nearly
@@ -31,9 +31,9 @@
  * hundredfold). */
 #define AMBULO__BORDER_SHIFT 1e-14
 /* Columns of an update (border.h) before M is factored anew, in tiles of 8. x: free. 0 (a factor
- * for each change): walks +5 to +11 % CPU, whole bodies +16 to +38 %. T: update. */
+ * for each change): walks +5 to +11 % CPU, whole bodies +16 to +38 %. T: border. */
 #define AMBULO__UPDATE_TILES 4
-/* Of the trace of the normal equations of mixing (mixing.c). 0: free, +2 % evaluations. T: mixing
+/* Of the trace of the normal equations of mixing (kkt.c). 0: free, +2 % evaluations. T: kkt
  * (0). */
 #define AMBULO__MIXING_REGULARIZATION 1e-12
 

@@ -13,21 +13,19 @@
  *
  * F is augmented.c's. What is ours:
  *
- *   variables  w is a chart of the surface (chart.h), laid anew after each inner solve around the
- *              point where it ended: the metric there, whose rows with a force are those that the
- *              model step foresees. NLopt's point does not move by that, and its L-BFGS starts
- *              afresh at every inner solve.
- *   gradients  where NLopt asks for gradients one row stands for all that have a force (mirror.h);
- *              the objective when none has. Where NLopt asks for none, between two inner solves,
- *              each row has its own value: from these NLopt updates nu and rho. Should NLopt's nu
- *              and rho not be those of mirror.h, which its first step of an inner solve tells, the
- *              call is begun anew and each row is given its own gradient.
+ *   variables  w is a chart of the surface (augmented.h), laid anew after each inner solve around
+ * the point where it ended: the metric there, whose rows with a force are those that the model step
+ * foresees. NLopt's point does not move by that, and its L-BFGS starts afresh at every inner solve.
+ *   gradients  where NLopt asks for gradients one row stands for all that have a force, or each has
+ *              its own where NLopt's nu and rho are not the mirror's (mirror.h): then the call is
+ *              begun anew. Between two inner solves each row has its own value: from these NLopt
+ *              updates nu and rho.
  *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
  *              walks stand (docs/solver.md: left alone it stops some of them too high). S is
  *              lowered in the same moment, for objective and rows alike: lambda stays, and R
  *              grows by 2.
  *   sigma      where a call has to be repeated, it starts with the lambda of the last one.
- *   ending     stopping.h, by nlopt_force_stop.
+ *   ending     pipeline.h, by nlopt_force_stop.
  *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
  * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
@@ -132,28 +130,23 @@ static void update_multipliers(drive *s) {
   take_multipliers(s);
 }
 
-static void tell(ambulo__engine *e) {
-  const ambulo__trial *point = &e->reached;
-  double gradient =
-      point->gradient_norm < 0.0 ? NAN : point->gradient_norm / fmax(1.0, fabs(point->objective));
-  (void)ambulo__run_iteration(e->run, e->setup->problem->definition.intervals,
-                              point->objective / e->setup->objective_scale, point->violation,
-                              gradient);
-}
-
-/* an inner solve has ended at the point held, where F is `value` */
+/* an inner solve has ended at the last point, where F is `value` */
 static void inner_ended(drive *s, double value) {
   ambulo__engine *e = s->engine;
-  const ambulo__trial *held = &e->held->trial;
+  const ambulo__trial *last = &e->last->trial;
   ambulo__run *run = e->run;
-  ambulo__trial_copy(held, &e->reached);
-  memcpy(s->x, held->x, (size_t)e->setup->n * sizeof *s->x);
+  ambulo__trial_copy(last, &e->reached);
+  memcpy(s->x, last->x, (size_t)e->setup->n * sizeof *s->x);
   update_damping(s, value);
   update_multipliers(s);
   ambulo__run_forgive(run);
   run->iterations++;
   run->nlopt.outer++;
-  tell(e); /* a stop is the run's */
+  double gradient = last->gradient_norm / fmax(1.0, fabs(last->objective));
+  (void)ambulo__run_iteration(run,
+                              e->setup->problem->definition.intervals, /* a stop is the run's */
+                              last->objective / e->setup->objective_scale, last->violation,
+                              last->gradient_norm < 0.0 ? NAN : gradient);
   s->ending = ambulo__stopping_test(s->stopping, e, s->x);
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;
@@ -173,24 +166,24 @@ static double give_up(drive *s, unsigned n, double *gradient) {
   return -HUGE_VAL;
 }
 
-/* what the rows are at the point held; where there is none, far from any bound: then F, which has
+/* what the rows are at the last point; where there is none, far from any bound: then F, which has
  * the objective's place, is high enough */
 static void take_rows(drive *s) {
-  const ambulo__trial *held = &s->engine->held->trial;
-  int none = !(held->value < HUGE_VAL);
+  const ambulo__trial *last = &s->engine->last->trial;
+  int none = !(last->value < HUGE_VAL);
   for (int i = 0; i < s->mirror.rows; i++)
-    s->row[i] = none ? -HUGE_VAL : s->scale * held->excess[i] + s->shift[i];
+    s->row[i] = none ? -HUGE_VAL : s->scale * last->excess[i] + s->shift[i];
 }
 
 static double value_of(const drive *s, double merit) {
-  const ambulo__trial *held = &s->engine->held->trial;
-  return s->scale * (held->value < HUGE_VAL ? held->objective : merit) + s->constant;
+  const ambulo__trial *last = &s->engine->last->trial;
+  return s->scale * (last->value < HUGE_VAL ? last->objective : merit) + s->constant;
 }
 
 /* a trial of L-BFGS */
 static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   ambulo__engine *e = s->engine;
-  const ambulo__trial *held = &e->held->trial;
+  const ambulo__trial *last = &e->last->trial;
   if (s->lay && !is_over(s)) s->ending = lay_chart(s, w);
   if (is_over(s)) return give_up(s, n, gradient);
   double merit = ambulo__chart_value(&s->chart, e, w, gradient);
@@ -198,8 +191,8 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
   double least = AMBULO__GRADIENT_NONE * e->run->options->optimality_tolerance *
-                 fmax(1.0, fabs(held->objective));
-  s->flat = held->value < HUGE_VAL && held->gradient_norm <= least;
+                 fmax(1.0, fabs(last->objective));
+  s->flat = last->value < HUGE_VAL && last->gradient_norm <= least;
   if (s->flat) memset(gradient, 0, n * sizeof *gradient);
   if (++s->trials == 1) memcpy(s->first, gradient, n * sizeof *gradient);
   if (s->trials == 2) {
@@ -211,7 +204,7 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   take_rows(s);
   if (e->run->own_gradients) {
     double scale = s->scale * e->setup->objective_scale;
-    if (held->value < HUGE_VAL && !s->flat)
+    if (last->value < HUGE_VAL && !s->flat)
       ambulo__chart_gradient(&s->chart, e, scale, NULL, s->l, gradient);
   } else {
     s->of_all = ambulo__mirror_pool(&s->mirror, s->row, n, gradient, s->pooled);
@@ -226,7 +219,7 @@ static double between(drive *s, unsigned n, const double *w) {
   if (is_over(s)) return give_up(s, n, NULL);
   double merit = ambulo__chart_value(&s->chart, e, w, s->gradient);
   if (e->run->stopped) return give_up(s, n, NULL);
-  if (!(e->held->trial.value < HUGE_VAL)) {
+  if (!(e->last->trial.value < HUGE_VAL)) {
     s->ending = AMBULO_ENDING_NO_DESCENT;
     return give_up(s, n, NULL);
   }
@@ -253,7 +246,7 @@ static double objective(unsigned n, const double *w, double *gradient, void *dat
 /* gradients of rows, each its own: of those that have a force, or may have one */
 static void own_gradients(drive *s, const block *b, unsigned n, double *gradient) {
   memset(gradient, 0, (size_t)b->count * n * sizeof *gradient);
-  if (!(s->engine->held->trial.value < HUGE_VAL) || s->flat) return;
+  if (!(s->engine->last->trial.value < HUGE_VAL) || s->flat) return;
   for (int k = 0; k < b->count; k++) {
     int i = b->first + k;
     if (!(s->row[i] > 0.0) && !s->violated[i]) continue;
@@ -289,7 +282,7 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
 /* -------------------------------------------------------------------- one call */
 
 static int set_up(drive *s, nlopt_opt outer, nlopt_opt local) {
-  static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
+  static const double tolerance[BLOCK] = {0.0}; /* pipeline.h has its own */
   int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
                nlopt_set_vector_storage(local, AMBULO__INNER_EVALUATIONS) < 0 ||
@@ -322,7 +315,7 @@ static int call(drive *s) {
 /* S, sigma and the constant for which NLopt starts with the engine's lambda and R; the chart */
 static ambulo_ending prepare(drive *s) {
   ambulo__engine *e = s->engine;
-  const ambulo__trial *held = &e->held->trial;
+  const ambulo__trial *last = &e->last->trial;
   const ambulo__iterate *iterate = &e->iterate;
   const int inequalities = e->setup->inequalities;
   double penalty = AMBULO__NLOPT_LEAST_PENALTY, violated = 0.0;
@@ -334,15 +327,15 @@ static ambulo_ending prepare(drive *s) {
   ambulo_ending failed = lay_chart(s, s->w);
   if (failed) return failed;
   for (int i = 0; i < inequalities; i++) {
-    double c = s->scale * held->excess[i] + iterate->lambda[i] / penalty;
+    double c = s->scale * last->excess[i] + iterate->lambda[i] / penalty;
     if (c > 0.0) violated = c;
   }
-  s->constant = -s->scale * held->objective;
+  s->constant = -s->scale * last->objective;
   if (violated == 0.0) {
     penalty = inequalities > 0 ? AMBULO__NLOPT_FIRST_PENALTY : 1.0; /* as mirror.c */
     s->scale = iterate->rho / penalty;
     s->chart.stretch = sqrt(s->scale);
-    s->constant = 1.0 - s->scale * held->objective;
+    s->constant = 1.0 - s->scale * last->objective;
   }
   for (int i = 0; i < inequalities; i++) s->shift[i] = iterate->lambda[i] / penalty;
   if (inequalities == 0) ambulo__mirror_start(&s->mirror, 0.0, s->row);
@@ -386,11 +379,8 @@ static ambulo_status run(drive *s) {
     int result = call(s);
     if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
     if (is_over(s) || (result >= 0 && s->mirror.measure == 0.0)) continue;
-    if (result >= 0) { /* of its own accord only where the mirror says so: else it is no mirror */
-      s->ending = AMBULO_ENDING_NLOPT;
-      break;
-    }
-    if (r->nlopt.outer == before) s->ending = AMBULO_ENDING_NLOPT;
+    /* of its own accord only where the mirror says so: else it is no mirror */
+    if (result >= 0 || r->nlopt.outer == before) s->ending = AMBULO_ENDING_NLOPT;
   }
   return AMBULO_OK;
 }

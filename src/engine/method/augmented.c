@@ -5,9 +5,9 @@
  *
  * with R the retraction and L L' the metric of the model step: in w the metric is the
  * identity, which is what every solver starts from. Gradient: with G = grad f + sum p grad v
- * and z of retraction.c (A),  dF/dw = L^-1 H z = L' z.
+ * and z of equalities.c (A),  dF/dw = L^-1 H z = L' z.
  *
- * The last point is held: NLopt asks for values and gradients of objective and constraint
+ * The last point is kept: NLopt asks for values and gradients of objective and constraint
  * separately.
  *
  * A point that cannot be reached, or where something is not finite, gets a value of a bowl above
@@ -25,33 +25,33 @@
 #include <math.h>
 #include <string.h>
 
-ambulo_status ambulo__held_create(ambulo__engine *e) {
+ambulo_status ambulo__last_point_create(ambulo__engine *e) {
   const ambulo__setup *s = e->setup;
-  ambulo__held *held = ambulo__pool_blocks(&e->pool, 1, sizeof *held);
-  if (!held) return AMBULO_E_MEMORY;
-  e->held = held;
-  held->w = ambulo__pool_doubles(&e->pool, (size_t)s->n);
-  held->gradient = ambulo__pool_doubles(&e->pool, (size_t)s->n);
-  ambulo__held_forget(e);
-  return ambulo__trial_create(s->n, s->inequalities, s->equalities, &e->pool, &held->trial);
+  ambulo__last_point *last = ambulo__pool_blocks(&e->pool, 1, sizeof *last);
+  if (!last) return AMBULO_E_MEMORY;
+  e->last = last;
+  last->w = ambulo__pool_doubles(&e->pool, (size_t)s->n);
+  last->gradient = ambulo__pool_doubles(&e->pool, (size_t)s->n);
+  ambulo__last_point_forget(e);
+  return ambulo__trial_create(s->n, s->inequalities, s->equalities, &e->pool, &last->trial);
 }
 
-void ambulo__held_forget(ambulo__engine *e) {
-  e->held->is_there = 0;
-  e->held->ceiling = -HUGE_VAL;
+void ambulo__last_point_forget(ambulo__engine *e) {
+  e->last->is_there = 0;
+  e->last->ceiling = -HUGE_VAL;
 }
 
 /* (P.7): value at w; HUGE_VAL when there is no point */
 static void evaluate(ambulo__engine *e, const double *w) {
   const ambulo__setup *s = e->setup;
   const ambulo__iterate *iterate = &e->iterate;
-  ambulo__held *held = e->held;
-  ambulo__trial *trial = &held->trial;
-  memcpy(held->w, w, (size_t)s->n * sizeof *w);
+  ambulo__last_point *last = e->last;
+  ambulo__trial *trial = &last->trial;
+  memcpy(last->w, w, (size_t)s->n * sizeof *w);
   memcpy(trial->x, w, (size_t)s->n * sizeof *w);
   trial->value = HUGE_VAL;
-  held->is_there = 1;
-  held->has_gradient = 0;
+  last->is_there = 1;
+  last->has_gradient = 0;
   ambulo__run_count(e->run);
   ambulo__band_backward(&e->linearized.whitener, trial->x);
   for (int j = 0; j < s->n; j++) trial->x[j] += iterate->x[j];
@@ -66,30 +66,30 @@ static void evaluate(ambulo__engine *e, const double *w) {
   }
   trial->value = trial->objective + sum / (2.0 * iterate->rho);
   trial->gradient_norm = -1.0;
-  if (trial->value < HUGE_VAL && trial->value > held->ceiling) held->ceiling = trial->value;
+  if (trial->value < HUGE_VAL && trial->value > last->ceiling) last->ceiling = trial->value;
 }
 
-/* gradient at the point held; without one the point is given up */
+/* gradient at the last point; without one the point is rejected */
 static void differentiate(ambulo__engine *e) {
   const ambulo__setup *s = e->setup;
-  ambulo__held *held = e->held;
-  ambulo__trial *trial = &held->trial;
+  ambulo__last_point *last = e->last;
+  ambulo__trial *trial = &last->trial;
   double sum = 0.0, *l = e->iterate.equality_multiplier;
-  held->has_gradient = 1;
-  if (ambulo__reduced_gradient(e, s->objective_scale, trial->multiplier, l, held->gradient)) {
+  last->has_gradient = 1;
+  if (ambulo__reduced_gradient(e, s->objective_scale, trial->multiplier, l, last->gradient)) {
     trial->value = HUGE_VAL;
     return;
   }
   memcpy(trial->equality_multiplier, l, (size_t)s->equalities * sizeof *l);
-  ambulo__band_upper_multiply(&e->linearized.whitener, held->gradient);
-  for (int j = 0; j < s->n; j++) sum += held->gradient[j] * held->gradient[j];
+  ambulo__band_upper_multiply(&e->linearized.whitener, last->gradient);
+  for (int j = 0; j < s->n; j++) sum += last->gradient[j] * last->gradient[j];
   trial->gradient_norm = sqrt(sum);
   if (!isfinite(sum)) trial->value = HUGE_VAL;
 }
 
 /* the bowl: see above */
-static double given_up(const ambulo__held *held, int n, const double *w, double *gradient) {
-  double top = held->ceiling > -HUGE_VAL ? held->ceiling : 0.0;
+static double given_up(const ambulo__last_point *last, int n, const double *w, double *gradient) {
+  double top = last->ceiling > -HUGE_VAL ? last->ceiling : 0.0;
   double height = 1.0 + fabs(top), sum = 1.0;
   for (int j = 0; j < n; j++) sum += w[j] * w[j];
   for (int j = 0; gradient && j < n; j++) gradient[j] = 2.0 * height * w[j];
@@ -98,17 +98,17 @@ static double given_up(const ambulo__held *held, int n, const double *w, double 
 
 /* (P.6) F at y = R(x_k + L^-T w), and its gradient by w */
 double ambulo__augmented(ambulo__engine *e, const double *w, double *gradient) {
-  ambulo__held *held = e->held;
+  ambulo__last_point *last = e->last;
   size_t bytes = (size_t)e->setup->n * sizeof *w;
-  int same = held->is_there && memcmp(w, held->w, bytes) == 0;
+  int same = last->is_there && memcmp(w, last->w, bytes) == 0;
   if (!same) evaluate(e, w);
-  if (held->trial.value < HUGE_VAL && gradient && !held->has_gradient) differentiate(e);
-  if (!(held->trial.value < HUGE_VAL)) return given_up(held, e->setup->n, w, gradient);
-  if (gradient) memcpy(gradient, held->gradient, bytes);
-  return held->trial.value;
+  if (last->trial.value < HUGE_VAL && gradient && !last->has_gradient) differentiate(e);
+  if (!(last->trial.value < HUGE_VAL)) return given_up(last, e->setup->n, w, gradient);
+  if (gradient) memcpy(gradient, last->gradient, bytes);
+  return last->trial.value;
 }
 
-/* see chart.h */
+/* see augmented.h */
 
 static double dot(const double *a, const double *b, int n) {
   double sum = 0.0;
@@ -137,9 +137,9 @@ int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, doub
   ambulo__band_upper_multiply(&e->linearized.whitener, c->step);
   for (int j = 0; j < n; j++) c->step[j] *= part;
   memset(c->whitened, 0, bytes);
-  ambulo__held_forget(e);
+  ambulo__last_point_forget(e);
   c->start = ambulo__augmented(e, c->whitened, c->gradient);
-  if (!(e->held->trial.value < HUGE_VAL)) return 0;
+  if (!(e->last->trial.value < HUGE_VAL)) return 0;
   double slope = dot(c->gradient, c->step, n), size = dot(c->step, c->step, n);
   if (slope < 0.0) {
     double length = 1.0 / sqrt(-slope * size);

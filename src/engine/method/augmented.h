@@ -5,19 +5,19 @@
 #include "method/engine.h"
 
 /* The last point, kept because objective and rows are asked for separately. */
-typedef struct ambulo__held {
+typedef struct ambulo__last_point {
   ambulo__trial trial;
   double *w, *gradient; /* [n]: the point, whitened; the gradient by w */
   int is_there;         /* 0: none, or one around another iterate */
   int has_gradient;
   double ceiling; /* highest value since the iterate was set */
-} ambulo__held;
+} ambulo__last_point;
 
-ambulo_status ambulo__held_create(ambulo__engine *engine);
+ambulo_status ambulo__last_point_create(ambulo__engine *engine);
 /* The iterate, its multipliers or the whitener are others: nothing is known around them. */
-void ambulo__held_forget(ambulo__engine *engine);
+void ambulo__last_point_forget(ambulo__engine *engine);
 
-/* Augmented Lagrangian at retract(x_k + L^-T w); the point in engine->held. gradient [n] may be
+/* Augmented Lagrangian at retract(x_k + L^-T w); the point in engine->last. gradient [n] may be
  * NULL. A point that cannot be reached, or where something is not finite, has a finite value above
  * that of the iterate. */
 double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradient);
@@ -27,7 +27,7 @@ double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradie
  *     x = R( x_k + L^-T (1 + s a') (w - w_k) / t )
  *
  * x_k the iterate (an earlier point), w_k what NLopt calls it, R the retraction onto the equalities
- * (retraction.c), L L' the metric of the model step at x_k, t > 0 a factor. w_k stays x_k when the
+ * (equalities.c), L L' the metric of the model step at x_k, t > 0 a factor. w_k stays x_k when the
  * chart is laid anew, so NLopt's own point does not jump.
  *
  * s = L' d with d the model step, g the gradient of F in whitened coordinates at x_k. The factor
@@ -59,10 +59,10 @@ ambulo_status ambulo__chart_create(int n, ambulo__pool *pool, ambulo__chart *cha
 int ambulo__chart_lay(ambulo__chart *chart, ambulo__engine *engine, const double *w,
                       double stretch);
 
-/* F at NLopt's w, and gradient [n]; the point in engine->held. As ambulo__augmented. */
+/* F at NLopt's w, and gradient [n]; the point in engine->last. As ambulo__augmented. */
 double ambulo__chart_value(ambulo__chart *chart, ambulo__engine *engine, const double *w,
                            double *gradient);
-/* Gradient by NLopt's w of scale f + sum p v at the point in engine->held. scale, p and l as in
+/* Gradient by NLopt's w of scale f + sum p v at the point in engine->last. scale, p and l as in
  * ambulo__reduced_gradient; zero where it is not finite. */
 void ambulo__chart_gradient(const ambulo__chart *chart, ambulo__engine *engine, double scale,
                             const double *p, double *l, double *gradient);

@@ -60,7 +60,7 @@ static ambulo_status create_iterate(ambulo__engine *e) {
   iterate->lambda = ambulo__pool_doubles(&e->pool, (size_t)s->inequalities);
   iterate->equality_multiplier = ambulo__pool_doubles(&e->pool, (size_t)s->equalities);
   iterate->border_multiplier = ambulo__pool_doubles(&e->pool, (size_t)s->borders);
-  iterate->carried_objective = -1.0;
+  iterate->coarse_objective = -1.0;
   return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -97,7 +97,7 @@ static ambulo_status create_parts(ambulo__engine *e) {
   if (!status) status = create_matrices(e);
   if (!status) status = ambulo__quadratic_create(e);
   if (!status) status = ambulo__retraction_create(e);
-  if (!status) status = ambulo__held_create(e);
+  if (!status) status = ambulo__last_point_create(e);
   if (status) return status;
   return ambulo__trial_create(s->n, s->inequalities, s->equalities, &e->pool, &e->reached);
 }
@@ -106,7 +106,7 @@ static ambulo_status create_parts(ambulo__engine *e) {
 static ambulo_status classify(ambulo__engine *e, const double **at, ambulo_diagnostics *diagnostics,
                               ambulo__setup *s) {
   const ambulo_problem *p = s->problem;
-  ambulo__rows_split *rows = &e->linearized.rows;
+  ambulo__row_roles *rows = &e->linearized.rows;
   ambulo__pool *pool = &e->pool;
   s->negligible_term = ambulo__pool_doubles(pool, (size_t)p->definition.term_count);
   s->cap = ambulo__pool_doubles(pool, (size_t)p->coordinates);
@@ -114,7 +114,7 @@ static ambulo_status classify(ambulo__engine *e, const double **at, ambulo_diagn
   if (pool->failed) return AMBULO_E_MEMORY;
   if (ambulo__evaluate(e->workspace, e->iterate.x) == AMBULO_OK) *at = e->iterate.x; /* zero */
   ambulo_status status =
-      ambulo__rows_split_create(p, e->workspace, *at, e->run, pool, diagnostics, rows);
+      ambulo__row_roles_create(p, e->workspace, *at, e->run, pool, diagnostics, rows);
   if (status) return status;
   s->rows = rows;
   s->n = p->variables;

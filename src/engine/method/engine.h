@@ -1,14 +1,14 @@
 /* method/engine.h - everything that one solve on one grid works with.
  *
  * Inside the engine the objective is multiplied by objective_scale and inequality rows are
- * excesses v = -s c <= 0 (rows_split.h):
+ * excesses v = -s c <= 0 (row_roles.h):
  *
  *     minimize f(x)   subject to h(x) = 0 (equality), C x = b (border), v(x) <= 0
  *
  *   setup       what the problem and the start decide, once
  *   iterate     x_k, lambda, rho, mu: what a solve moves
  *   linearized  gradients and curvature at x_k, and the factors made of them
- *   held        the last point that was evaluated around x_k (augmented.h)
+ *   last        the last point that was evaluated around x_k (augmented.h)
  *   reached     where the last inner solve ended
  *
  * The scratch of a module is declared in its header, and nobody else looks into it but whom that
@@ -25,7 +25,7 @@
 /* The same from the first iteration to the last. */
 typedef struct ambulo__setup {
   const ambulo_problem *problem;
-  const ambulo__rows_split *rows; /* which row plays which role; gradients: see linearized */
+  const ambulo__row_roles *rows; /* which row plays which role; gradients: see linearized */
   int n, equalities, inequalities, borders;
   double objective_scale;
   double at_rest;    /* |objective| (not scaled) with all unknowns zero */
@@ -40,13 +40,13 @@ typedef struct ambulo__iterate {
   double *equality_multiplier; /* [equalities]: G + J' l + C' m = 0 at a solution */
   double *border_multiplier;   /* [borders]: m, after a model step */
   double rho, mu;              /* penalty; damping */
-  double carried_objective;    /* lambda is from a coarser grid (carry.c), where the objective (not
-                                  scaled) came to this; < 0: it is not */
+  double coarse_objective;     /* lambda is from a coarser grid (refine.c), where the objective (not
+                                   scaled) came to this; < 0: it is not */
 } ambulo__iterate;
 
 /* The linear algebra at x_k. */
 typedef struct ambulo__linearized {
-  ambulo__rows_split rows; /* with their gradients at x_k */
+  ambulo__row_roles rows; /* with their gradients at x_k */
   ambulo__metric metric;
   ambulo__band base;     /* H0 + mu I */
   double *filled_at;     /* [n]: where H0 was filled in */
@@ -56,7 +56,7 @@ typedef struct ambulo__linearized {
   ambulo__kkt kkt;       /* the same H with the equalities' gradients */
 } ambulo__linearized;
 
-/* Values of rows at the point that the workspace holds (engine_point.h). */
+/* Values of rows at the point that the workspace holds (point.h). */
 typedef struct ambulo__measured {
   double *equality, *border; /* h, C x - b; [equalities], [borders] */
   double *excess;            /* [inequalities]: for whoever has no place of its own */
@@ -91,9 +91,9 @@ typedef struct ambulo__engine {
   ambulo__linearized linearized;
   ambulo__measured measured;
   ambulo__trial reached;                 /* value HUGE_VAL: nowhere yet */
-  struct ambulo__held *held;             /* augmented.h */
+  struct ambulo__last_point *last;       /* augmented.h */
   struct ambulo__quadratic *quadratic;   /* model_step.h */
-  struct ambulo__retraction *retraction; /* retraction.h */
+  struct ambulo__retraction *retraction; /* equalities.h */
   double *polished;                      /* [n]: the point so far, of stopping.c */
 } ambulo__engine;
 

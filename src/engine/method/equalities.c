@@ -37,7 +37,7 @@ ambulo_status ambulo__retraction_create(ambulo__engine *e) {
   return pool->failed ? AMBULO_E_MEMORY : status;
 }
 
-/* the step of least length from the point held; 1 when it cannot be had */
+/* the step of least length from the point of the workspace; 1 when it cannot be had */
 static int direction(ambulo__engine *e, double *d) {
   ambulo__linearized *at = &e->linearized;
   ambulo__retraction *r = e->retraction;
@@ -108,7 +108,7 @@ ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
  *
  *     y = R(y_0):   h(y) = 0,   C y = b,   y - y_0 in H^-1 range(J_k', C')
  *
- * by chord steps with the factor held (kkt.h); a pass solves J_k d = -h only nearly, but
+ * by chord steps with the factor at hand (kkt.h); a pass solves J_k d = -h only nearly, but
  * always moves within H^-1 range(J_k', C'), and h is evaluated anew. Mixing the last
  * iterates (coefficients that sum to one) stays on that plane and copes with a Jacobian
  * that has moved.

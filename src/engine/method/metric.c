@@ -3,7 +3,7 @@
  * Each node adds G'G, G the gradients of its residuals times the square root of their curvature: by
  * its q, qd and qdd, from where their Gram matrix is spread over its control points
  * (linear/band.h). Residuals of one coordinate's torque and motion are first made one for each
- * coordinate, and a form of its own control points (joint_squares.h). Rates depend on two nodes,
+ * coordinate, and a form of its own control points (metric.h). Rates depend on two nodes,
  * and their rows stand on the unknowns of both.
  *
  * Where no term has curvature (no objective, or linear terms of the caller) a metric of

@@ -87,7 +87,7 @@ ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool 
  * of the problem. */
 int ambulo__metric_diagonals(const ambulo_problem *problem);
 
-/* H0 at the point held (ambulo__evaluate_jacobian), without mu. */
+/* H0 at the point of the workspace (ambulo__evaluate_jacobian), without mu. */
 void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
                          ambulo__band *h);
 

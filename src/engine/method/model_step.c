@@ -266,9 +266,7 @@ int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *p
 static int finish(ambulo__linearized *at, ambulo__quadratic *q) {
   memcpy(q->active, q->added, (size_t)q->inequalities * sizeof *q->active);
   at->assembled = 0; /* but factored */
-  if (at->kkt.equalities > 0 || at->kkt.update.taken > 0) return ambulo__band_factor(&at->whitener);
-  ambulo__band_copy_factor(&at->kkt.factor, &at->whitener);
-  return 0;
+  return ambulo__band_factor(&at->whitener);
 }
 
 static int not_finite(ambulo__engine *e) {

@@ -42,7 +42,7 @@
  * keeps down what rounding makes of smooth motions on fine grids. */
 #define AMBULO__POLISH_DAMPING (10.0 * AMBULO__RESTORE_DAMPING)
 
-/* ------------------------------------------------ the metric H0 (metric.c, engine_point.c) */
+/* ------------------------------------------------ the metric H0 (metric.c, point.c) */
 
 /* Of each diagonal element of the metric, added to it: a thousand roundings. Otherwise the
  * curvature of smooth motions on grids of thousands of intervals, (T/K)^4 of the diagonal, is
@@ -53,7 +53,7 @@
  * usual one where that is tighter. H0 is kept while no control point has moved by more since it was
  * filled in: at 0.01 the same points in as many iterations as with a new H0 each time, and whole
  * bodies take 26 to 34 % less time; 0.05: +15 % for walks; 0.1: +50 %. Gradients: 1e-3 free, +3 %
- * time. As usual with a tight tolerance: yardstick_12 with 1e-6 is only feasible. T: engine_point
+ * time. As usual with a tight tolerance: yardstick_12 with 1e-6 is only feasible. T: point
  * (double), sensitivities. */
 #define AMBULO__METRIC_SHARE 10.0
 #define AMBULO__USUAL_OPTIMALITY 1e-3
@@ -71,11 +71,11 @@
 #define AMBULO__PENALTY_START 10.0
 /* R with a coarser grid's multipliers, which a weak penalty would let drift. 0 (10): +19 %. T:
  * pipeline. */
-#define AMBULO__PENALTY_CARRIED (16.0 * AMBULO__PENALTY_START)
+#define AMBULO__PENALTY_COARSE (16.0 * AMBULO__PENALTY_START)
 /* Times the coarse solution's objective: below, that grid had resolved the motion and its
  * multipliers are kept. 0 (never): +20 %; always: +19 %, yardstick_72 +2.5 % of the objective. T:
  * pipeline. */
-#define AMBULO__CARRIED_OBJECTIVE 2.0
+#define AMBULO__COARSE_OBJECTIVE 2.0
 /* Factor of R where NLopt raises its penalty. Half (no growth): 6 of 17 problems run into their
  * limits. Double: +8 %. T: pipeline. */
 #define AMBULO__PENALTY_GROWTH 2.0
@@ -105,32 +105,32 @@
 /* Factorizations of one model. Half: run, hop and reach_standing are not solved; double: free. T:
  * model_step (0). */
 #define AMBULO__MODEL_STEPS 15
-/* Of the gain so far: what a step has to bring; where the minimum itself is wanted (polish.c)
+/* Of the gain so far: what a step has to bring; where the minimum itself is wanted (stopping.c)
  * HALF_DIGITS. x: free. A first of 1e-2: +13 %. T: model_step (a hundredfold). */
 #define AMBULO__MODEL_ENOUGH 1e-3
 /* Of phi' at 0: slope that counts as zero along a step. x: free. */
 #define AMBULO__MODEL_LEVEL 1e-6
 /* Rad, m: largest change that a model step proposes; beyond, angles are not small. x: +10 %, +17 %;
- * double: yardstick_72 +1.0 % of the objective. T: chart. */
+ * double: yardstick_72 +1.0 % of the objective. T: augmented. */
 #define AMBULO__MODEL_STEP_CAP 0.5
 
-/* ------------------- the equalities' surface: getting there, points on it (restore.c,
- * retraction.c) */
+/* ------------------- the equalities' surface: getting there, points on it (equalities.c,
+ * equalities.c) */
 
-/* Newton steps from anywhere. Shipped problems need fewer than 30. T: restore. */
+/* Newton steps from anywhere. Shipped problems need fewer than 30. T: equalities. */
 #define AMBULO__RESTORE_STEPS 60
 /* Rad, m: largest change in one step. x: +4 %, +5 %, yardstick_72 +0.7 % of the objective. T:
- * restore. */
+ * equalities. */
 #define AMBULO__RESTORE_STEP_CAP 0.3
 /* Worst equality, relative to the rows' sizes, that the method starts from; Newton's last step
- * passes it and a thousandth of it, where it stops. T: restore; smooth. */
+ * passes it and a thousandth of it, where it stops. T: equalities; smooth. */
 #define AMBULO__RESTORED 1e-6
 #define AMBULO__RESTORE_TARGET 1e-9
 /* Of the feasibility tolerance, at most RESTORED: worst equality of a retracted point. x: free. 0:
- * walk_normal with 1e-9 is called infeasible. T: retraction, pipeline. */
+ * walk_normal with 1e-9 is called infeasible. T: equalities, pipeline. */
 #define AMBULO__RETRACTION_SHARE 0.1
 /* Steps of an inner loop: chords to a point, of which a step of L-BFGS that takes more is too long;
- * passes of a gradient; halvings of a step. Half: +27 %; double: free. T: retraction, restore. */
+ * passes of a gradient; halvings of a step. Half: +27 %; double: free. T: equalities. */
 #define AMBULO__INNER_STEPS 16
 
 /* --------------------------------------------------------- when it is done (stopping.c) */
@@ -168,7 +168,7 @@
  * 0.03: +22 %, +31 %. T: stopping. */
 #define AMBULO__COARSE_GRADIENT 0.1
 
-/* -------------------------------------------------------------- polishing (polish.c) */
+/* -------------------------------------------------------------- polishing (stopping.c) */
 
 /* Newton steps. 0: +5 %, and walk_normal with a tolerance of 1e-9 is called infeasible. T: pipeline
  * (0). */
@@ -192,10 +192,10 @@
  * 1030 iterations; 1: +30 %; 3: +4 %; in proportion: +62 %. T: refine. */
 #define AMBULO__COARSE_NODES_A_KNOT 2
 
-/* --------------------------------------------------------------- rough starts (smooth.c) */
+/* --------------------------------------------------------------- rough starts (pipeline.c) */
 
 /* Rad, m: what a start is off by; rad/s^2, m/s^2: accelerations of a swinging leg. Together a
- * low-pass of 6 Hz (smooth.c). T: smooth, both. */
+ * low-pass of 6 Hz (pipeline.c). T: smooth, both. */
 #define AMBULO__ROUGH_DEVIATION 0.02
 #define AMBULO__ROUGH_ACCELERATION 30.0
 
@@ -206,14 +206,14 @@
 /* Bytes: dense work of SLSQP beyond which a problem is refused. */
 #define AMBULO__DIRECT_MEMORY 4e9
 
-/* ------------------------------------------------------ dependent rows (presolve_rank.c) */
+/* ------------------------------------------------------ dependent rows (row_roles.c) */
 
 /* Cyclic projections onto border rows. x: no change. */
 #define AMBULO__RANK_SWEEPS 500
 /* Rad, m: distance of the generic point from the start. x: no change. */
 #define AMBULO__RANK_SHIFT 0.1
 /* Row unit, of 1 + |value|: values of dependent rows that contradict: a microradian does, rounding
- * does not. T: presolve_rank (0). */
+ * does not. T: row_roles (0). */
 #define AMBULO__RANK_CONTRADICTION 1e-7
 
 /* ------------------------------------------------------------------------- clock (run.c) */

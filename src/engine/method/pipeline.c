@@ -1,17 +1,16 @@
 /* method/pipeline.c - the method on one grid: carries x to the equalities, then has NLopt's AUGLAG
- * minimize on them (auglag.c), by rows as balance.h divides them.
+ * minimize on them (auglag.c), each row divided by what balances it; a rough start is smoothed.
  *
  *     mu = mu_0 T/K, rho = 10, lambda = 0; rho = 3000 where the start nearly satisfies the rows: a
  *     weaker penalty would let go of them, and the solve would wander off into another valley.
- *     lambda of a coarser grid (carry.c), rho = 160 and a quarter of mu where that grid had
+ *     lambda of a coarser grid (refine.c), rho = 160 and a quarter of mu where that grid had
  *     resolved the motion
  *
  * Equalities hold all along: every point is a retracted one.
  *
- * Reading order: engine.h, rows_split.h, metric.h, engine_point.h, pipeline.c, restore.c,
- * balance.h, auglag.c, chart.h, mirror.h, model_step.c, augmented.c, retraction.c, stopping.h,
- * polish.c; refine.c and carry.h around it. Besides: direct.h,
- * smooth.h.
+ * Reading order: engine.h, row_roles.h, metric.h, point.h, pipeline.h, pipeline.c, equalities.c,
+ * auglag.c, augmented.h, mirror.h, model_step.c, augmented.c, stopping.c; refine.c around it.
+ * Besides: slsqp.c.
  */
 #include "method/pipeline.h"
 
@@ -27,16 +26,16 @@
  * is about the one of its solution here. */
 static void begin_multipliers(ambulo__engine *e, ambulo__stage stage) {
   double objective = fabs(e->workspace->objective);
-  int carried = e->iterate.carried_objective >= 0.0 &&
-                objective <= AMBULO__CARRIED_OBJECTIVE * e->iterate.carried_objective;
+  int carried = e->iterate.coarse_objective >= 0.0 &&
+                objective <= AMBULO__COARSE_OBJECTIVE * e->iterate.coarse_objective;
   e->iterate.rho = stage == AMBULO__NEAR ? AMBULO__PENALTY_LIMIT : AMBULO__PENALTY_START;
   if (carried) {
-    e->iterate.rho = AMBULO__PENALTY_CARRIED;
+    e->iterate.rho = AMBULO__PENALTY_COARSE;
     e->iterate.mu /= AMBULO__DAMPING_CHANGE * AMBULO__DAMPING_CHANGE;
   } else {
     memset(e->iterate.lambda, 0, (size_t)e->setup->inequalities * sizeof *e->iterate.lambda);
   }
-  e->iterate.carried_objective = -1.0;
+  e->iterate.coarse_objective = -1.0;
   memset(e->iterate.equality_multiplier, 0,
          (size_t)e->setup->equalities * sizeof *e->iterate.equality_multiplier);
 }
@@ -69,9 +68,9 @@ ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__stage stage, double *x
   return status;
 }
 
-/* the gradients held, row i divided by `size` */
+/* the gradients at hand, row i divided by `size` */
 static void divide(ambulo__engine *e, int i, double size) {
-  ambulo__rows_split *rows = &e->linearized.rows;
+  ambulo__row_roles *rows = &e->linearized.rows;
   e->iterate.lambda[i] *= size / rows->size[i];
   rows->size[i] = size;
   ambulo__sparse_rows_set_scale(&rows->inequality, i, -1.0 / size);
@@ -79,7 +78,7 @@ static void divide(ambulo__engine *e, int i, double size) {
 
 /* (P.15) v = -c / (s max(1, sqrt l)) */
 void ambulo__balance_rows(ambulo__engine *e, const double *x) {
-  ambulo__rows_split *rows = &e->linearized.rows;
+  ambulo__row_roles *rows = &e->linearized.rows;
   if (ambulo__evaluate_jacobian(e->workspace, x) ||
       ambulo__sparse_rows_fill(&rows->inequality, e->workspace, 0) ||
       ambulo__engine_fill_metric(e, e->iterate.mu))
@@ -105,11 +104,11 @@ void ambulo__balance_rows(ambulo__engine *e, const double *x) {
  * amplitude is halved at sqrt(a / s) = 39 rad/s = 6 Hz, where gait data are filtered (Winter 2009).
  *
  * A start that loses no more than half of its squared accelerations is not rough and stays.
- * Otherwise both are carried to the equalities (restore.c), and the one with the lower objective
+ * Otherwise both are carried to the equalities (equalities.c), and the one with the lower objective
  * plus penalty on the inequalities is the start: an optimum is not smoothed away.
  */
 
-/* integral of |qdd|^2 / a^2 at the point held */
+/* integral of |qdd|^2 / a^2 at the point of the workspace */
 static double bending(const ambulo__engine *e) {
   const ambulo_workspace *w = e->workspace;
   const ambulo_problem *p = e->setup->problem;

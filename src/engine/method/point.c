@@ -1,4 +1,4 @@
-/* method/point.c - see engine_point.h. */
+/* method/point.c - see point.h. */
 #include "method/point.h"
 
 #include "base/arithmetic.h"
@@ -27,7 +27,7 @@ static double worst_equality(const ambulo__setup *s, const ambulo__sparse_rows *
 }
 
 double ambulo__engine_equality_error(ambulo__engine *e) {
-  const ambulo__rows_split *rows = e->setup->rows;
+  const ambulo__row_roles *rows = e->setup->rows;
   ambulo__measured *m = &e->measured;
   ambulo__sparse_rows_values(&rows->equality, e->workspace, m->equality);
   ambulo__sparse_rows_values(&rows->border, e->workspace, m->border);
@@ -80,15 +80,15 @@ static int is_near(const ambulo__engine *e) {
 
 int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
   ambulo__linearized *at = &e->linearized;
-  double held = at->filled_mu;
+  double in_base = at->filled_mu;
   at->assembled = 0;
   if (!is_near(e)) {
     ambulo__metric_fill(&at->metric, e->workspace, e->setup->objective_scale, &at->base);
     ambulo__band_raise_diagonal(&at->base, AMBULO__METRIC_ROUNDING);
     memcpy(at->filled_at, e->workspace->x, (size_t)e->setup->n * sizeof *at->filled_at);
-    held = 0.0;
+    in_base = 0.0;
   }
-  ambulo__band_add_diagonal(&at->base, mu - held);
+  ambulo__band_add_diagonal(&at->base, mu - in_base);
   double largest = ambulo__band_largest(&at->base);
   at->filled_mu = isfinite(largest) ? mu : -1.0;
   if (isfinite(largest)) return 0;

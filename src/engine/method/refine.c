@@ -5,9 +5,9 @@
  * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones. The
  * trajectory becomes coarser with them, but keeps a knot interval for two of them where it has so
  * many: one that is too coarse for its contacts is led into other motions.
- * A grid that has no room for the rows is left early (stopping.h). Its motion is a start, but its
+ * A grid that has no room for the rows is left early (pipeline.h). Its motion is a start, but its
  * multipliers have been driven up by what cannot be, and would drive the next grid's motion far
- * away: they are not carried.
+ * away: they are not saved.
  * Grids on events distribute their intervals over the phases anew; one that is too coarse for that
  * is refused and left out.
  */
@@ -53,13 +53,13 @@ static int coarse_spline(int intervals, int nodes, int spline, int least) {
 typedef struct level {
   ambulo_problem *problem; /* NULL: none yet */
   double *x;
-  ambulo__carried carried;
+  ambulo__saved_multipliers saved;
 } level;
 
 static void free_level(const ambulo_allocator *a, level *l) {
   ambulo_problem_free(l->problem);
   ambulo__free(a, l->x);
-  ambulo__carry_clear(a, &l->carried);
+  ambulo__multipliers_free(a, &l->saved);
   memset(l, 0, sizeof *l);
 }
 
@@ -79,17 +79,17 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
                                  const ambulo_allocator *a, ambulo__run *run, level *before) {
   level new = {0};
   ambulo__engine *engine = NULL;
-  int useful = 0, held = 0;
+  int useful = 0, resolved = 0;
   ambulo_status status = create_level(problem, intervals, spline, a, before, &new);
   if (!status) status = ambulo__engine_create(new.problem, new.x, a, run, NULL, &engine);
   if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
   if (!status && engine && engine->setup->rows->regular) {
-    if (before->problem) ambulo__carry_to(&before->carried, engine);
+    if (before->problem) ambulo__multipliers_transfer(&before->saved, engine);
     status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
     useful = !status && engine->reached.value < HUGE_VAL;
-    held = engine->reached.violation <= AMBULO__ROUGH_VIOLATION;
+    resolved = engine->reached.violation <= AMBULO__ROUGH_VIOLATION;
   }
-  if (useful && held) status = ambulo__carry_from(engine, a, &new.carried);
+  if (useful && resolved) status = ambulo__multipliers_save(engine, a, &new.saved);
   ambulo__engine_free(engine);
   if (useful && !status) {
     free_level(a, before);
@@ -117,14 +117,14 @@ ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocato
     if (coarse >= 1) status = solve_level(p, grid[count], coarse, &a, e->run, &last);
   }
   if (!status && last.problem && ambulo_problem_transfer(last.problem, last.x, p, x) == AMBULO_OK) {
-    ambulo__carry_to(&last.carried, e);
+    ambulo__multipliers_transfer(&last.saved, e);
     *levels = 1;
   }
   free_level(&a, &last);
   return status;
 }
 
-/* see carry.h */
+/* the multipliers of one grid, for another */
 
 /* FNV-1a 64 of the labels, each with its end */
 static unsigned long long series_of(const ambulo__table_row *row) {
@@ -140,7 +140,7 @@ static unsigned long long series_of(const ambulo__table_row *row) {
 }
 
 static int by_series_and_time(const void *a, const void *b) {
-  const ambulo__carried_row *one = a, *other = b;
+  const ambulo__saved_row *one = a, *other = b;
   if (one->series != other->series) return one->series < other->series ? -1 : 1;
   return (one->time > other->time) - (one->time < other->time);
 }
@@ -150,34 +150,33 @@ static double time_of(const ambulo_problem *p, const ambulo__table_row *row) {
   return row->node < 0 ? 1.0 : p->quadrature[row->node];
 }
 
-ambulo_status ambulo__carry_from(const ambulo__engine *e, const ambulo_allocator *allocator,
-                                 ambulo__carried *carried) {
+ambulo_status ambulo__multipliers_save(const ambulo__engine *e, const ambulo_allocator *allocator,
+                                       ambulo__saved_multipliers *saved) {
   const ambulo_problem *p = e->setup->problem;
   const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
-  ambulo__carry_clear(allocator, carried);
-  carried->row = ambulo__alloc(allocator, (size_t)e->setup->inequalities, sizeof *carried->row);
-  if (!carried->row) return AMBULO_E_MEMORY;
-  carried->interval = 0.0;
+  ambulo__multipliers_free(allocator, saved);
+  saved->row = ambulo__alloc(allocator, (size_t)e->setup->inequalities, sizeof *saved->row);
+  if (!saved->row) return AMBULO_E_MEMORY;
+  saved->interval = 0.0;
   for (int k = 0; k + 1 < p->nodes; k++)
-    carried->interval = fmax(carried->interval, p->times[k + 1] - p->times[k]);
-  carried->count = e->setup->inequalities;
-  carried->objective = e->reached.objective / e->setup->objective_scale;
+    saved->interval = fmax(saved->interval, p->times[k + 1] - p->times[k]);
+  saved->count = e->setup->inequalities;
+  saved->objective = e->reached.objective / e->setup->objective_scale;
   for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
     double multiplier = -rows->scale[i] * e->iterate.lambda[i] / e->setup->objective_scale;
-    carried->row[i] =
-        (ambulo__carried_row){series_of(row), row->time, multiplier / time_of(p, row)};
+    saved->row[i] = (ambulo__saved_row){series_of(row), row->time, multiplier / time_of(p, row)};
   }
-  qsort(carried->row, (size_t)carried->count, sizeof *carried->row, by_series_and_time);
+  qsort(saved->row, (size_t)saved->count, sizeof *saved->row, by_series_and_time);
   return AMBULO_OK;
 }
 
 /* the first row that is not before this one */
-static int find(const ambulo__carried *carried, const ambulo__carried_row *wanted) {
-  int low = 0, high = carried->count;
+static int find(const ambulo__saved_multipliers *saved, const ambulo__saved_row *wanted) {
+  int low = 0, high = saved->count;
   while (low < high) {
     int middle = low + (high - low) / 2;
-    if (by_series_and_time(&carried->row[middle], wanted) < 0) {
+    if (by_series_and_time(&saved->row[middle], wanted) < 0) {
       low = middle + 1;
     } else {
       high = middle;
@@ -187,33 +186,34 @@ static int find(const ambulo__carried *carried, const ambulo__carried_row *wante
 }
 
 /* of rows next to each other: linear between them; of one alone: constant for half an interval */
-static double density_at(const ambulo__carried *carried, unsigned long long series, double time) {
-  const ambulo__carried_row wanted = {series, time, 0.0};
-  int after = find(carried, &wanted), before = after - 1;
-  int has_after = after < carried->count && carried->row[after].series == series;
-  int has_before = before >= 0 && carried->row[before].series == series;
-  const ambulo__carried_row *b = has_before ? &carried->row[before] : NULL;
-  const ambulo__carried_row *a = has_after ? &carried->row[after] : NULL;
-  if (a && b && a->time - b->time < 1.5 * carried->interval)
+static double density_at(const ambulo__saved_multipliers *saved, unsigned long long series,
+                         double time) {
+  const ambulo__saved_row wanted = {series, time, 0.0};
+  int after = find(saved, &wanted), before = after - 1;
+  int has_after = after < saved->count && saved->row[after].series == series;
+  int has_before = before >= 0 && saved->row[before].series == series;
+  const ambulo__saved_row *b = has_before ? &saved->row[before] : NULL;
+  const ambulo__saved_row *a = has_after ? &saved->row[after] : NULL;
+  if (a && b && a->time - b->time < 1.5 * saved->interval)
     return b->density + (a->density - b->density) * (time - b->time) / (a->time - b->time);
-  double reach = 0.5 * carried->interval * (1.0 + 1e-9);
+  double reach = 0.5 * saved->interval * (1.0 + 1e-9);
   if (a && a->time - time <= reach) return a->density;
   return b && time - b->time <= reach ? b->density : 0.0;
 }
 
 /* (P.13) densities of the coarse grid times w_k of this one */
-void ambulo__carry_to(const ambulo__carried *carried, ambulo__engine *e) {
+void ambulo__multipliers_transfer(const ambulo__saved_multipliers *saved, ambulo__engine *e) {
   const ambulo_problem *p = e->setup->problem;
   const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
   for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
-    double multiplier = time_of(p, row) * density_at(carried, series_of(row), row->time);
+    double multiplier = time_of(p, row) * density_at(saved, series_of(row), row->time);
     e->iterate.lambda[i] = fmax(0.0, e->setup->objective_scale * multiplier / -rows->scale[i]);
   }
-  e->iterate.carried_objective = carried->count > 0 ? fabs(carried->objective) : -1.0;
+  e->iterate.coarse_objective = saved->count > 0 ? fabs(saved->objective) : -1.0;
 }
 
-void ambulo__carry_clear(const ambulo_allocator *allocator, ambulo__carried *carried) {
-  ambulo__free(allocator, carried->row);
-  memset(carried, 0, sizeof *carried);
+void ambulo__multipliers_free(const ambulo_allocator *allocator, ambulo__saved_multipliers *saved) {
+  ambulo__free(allocator, saved->row);
+  memset(saved, 0, sizeof *saved);
 }

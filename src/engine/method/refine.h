@@ -17,23 +17,25 @@ ambulo_status ambulo__refine(ambulo__engine *engine, const ambulo_allocator *all
  * rows carry a force, and how much.
  */
 
-typedef struct ambulo__carried_row {
+typedef struct ambulo__saved_row {
   unsigned long long series; /* the same for rows of one family, subject and detail */
   double time, density;      /* s; of the multiplier, objective not scaled */
-} ambulo__carried_row;
+} ambulo__saved_row;
 
-typedef struct ambulo__carried {
-  ambulo__carried_row *row; /* [count], by series and time */
+typedef struct ambulo__saved_multipliers {
+  ambulo__saved_row *row; /* [count], by series and time */
   int count;
   double interval;  /* s, between nodes */
   double objective; /* not scaled */
-} ambulo__carried;
+} ambulo__saved_multipliers;
 
 /* The multipliers that the engine ended with. E_MEMORY. */
-ambulo_status ambulo__carry_from(const ambulo__engine *engine, const ambulo_allocator *allocator,
-                                 ambulo__carried *carried);
+ambulo_status ambulo__multipliers_save(const ambulo__engine *engine,
+                                       const ambulo_allocator *allocator,
+                                       ambulo__saved_multipliers *carried);
 /* Sets the engine's multipliers; what the other grid has no rows for starts at zero. */
-void ambulo__carry_to(const ambulo__carried *carried, ambulo__engine *engine);
-void ambulo__carry_clear(const ambulo_allocator *allocator, ambulo__carried *carried);
+void ambulo__multipliers_transfer(const ambulo__saved_multipliers *carried, ambulo__engine *engine);
+void ambulo__multipliers_free(const ambulo_allocator *allocator,
+                              ambulo__saved_multipliers *carried);
 
 #endif

@@ -1,4 +1,4 @@
-/* method/row_roles.c - see rows_split.h. */
+/* method/row_roles.c - see row_roles.h. */
 #include "method/row_roles.h"
 
 #include "base/arithmetic.h"
@@ -10,7 +10,7 @@
 
 static const double least_gradient = 1e-6; /* of a row of the caller, where it vanishes */
 
-/* what an inequality is divided by: see rows_split.h */
+/* what an inequality is divided by: see row_roles.h */
 double ambulo__rows_size(const ambulo_problem *p, const ambulo__sparse_rows *s, int i) {
   const ambulo__table_row *row = &p->table.rows[s->row[i]];
   if (row->user < 0 || row->kind != AMBULO__KIND_USER) return row->size;
@@ -18,7 +18,7 @@ double ambulo__rows_size(const ambulo_problem *p, const ambulo__sparse_rows *s, 
   return norm >= least_gradient ? norm : least_gradient;
 }
 
-int ambulo__rows_contradict(const ambulo__rows_split *rows, int count) {
+int ambulo__rows_contradict(const ambulo__row_roles *rows, int count) {
   for (int r = 0; r < count; r++) {
     if (rows->rank[r] == AMBULO__ROW_CONTRADICTORY) return 1;
   }
@@ -30,7 +30,7 @@ typedef struct lists {
   int equalities, borders, inequalities;
 } lists;
 
-static void classify(const ambulo_problem *p, const int *rank, lists *l, ambulo__rows_split *out) {
+static void classify(const ambulo_problem *p, const int *rank, lists *l, ambulo__row_roles *out) {
   out->regular = 1;
   out->dropped = 0;
   for (int r = 0; r < p->rows; r++) {
@@ -48,9 +48,9 @@ static void classify(const ambulo_problem *p, const int *rank, lists *l, ambulo_
   }
 }
 
-ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspace *workspace,
-                                        const double *start, ambulo__run *run, ambulo__pool *pool,
-                                        ambulo_diagnostics *diagnostics, ambulo__rows_split *out) {
+ambulo_status ambulo__row_roles_create(const ambulo_problem *p, ambulo_workspace *workspace,
+                                       const double *start, ambulo__run *run, ambulo__pool *pool,
+                                       ambulo_diagnostics *diagnostics, ambulo__row_roles *out) {
   size_t rows = (size_t)p->rows;
   out->rank = ambulo__pool_ints(pool, rows);
   lists l = {.equality = ambulo__pool_ints(pool, rows),

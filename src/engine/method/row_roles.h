@@ -25,26 +25,26 @@ typedef enum ambulo__row_rank {
   AMBULO__ROW_CONTRADICTORY /* its gradient follows from theirs, its value does not */
 } ambulo__row_rank;
 
-typedef struct ambulo__rows_split {
+typedef struct ambulo__row_roles {
   ambulo__sparse_rows equality, border, inequality;
   double *unit; /* [inequality.count]: the sizes above */
   double *size; /* what each is divided by: the same, or what ambulo__balance_rows makes of it */
   int *rank;    /* [rows]: ambulo__row_rank */
   int dropped;
   int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */
-} ambulo__rows_split;
+} ambulo__row_roles;
 
 /* What row i of a filled set is divided by in the solver: see above. */
 double ambulo__rows_size(const ambulo_problem *problem, const ambulo__sparse_rows *rows, int i);
 
 /* 1 when some equality of the problem's `count` rows contradicts equalities before it. */
-int ambulo__rows_contradict(const ambulo__rows_split *rows, int count);
+int ambulo__rows_contradict(const ambulo__row_roles *rows, int count);
 
 /* Classifies, creates the three sets and fills their gradients at the start. E_MEMORY; E_LIMIT: the
  * run was stopped meanwhile. */
-ambulo_status ambulo__rows_split_create(const ambulo_problem *problem, ambulo_workspace *workspace,
-                                        const double *start, ambulo__run *run, ambulo__pool *pool,
-                                        ambulo_diagnostics *diagnostics, ambulo__rows_split *out);
+ambulo_status ambulo__row_roles_create(const ambulo_problem *problem, ambulo_workspace *workspace,
+                                       const double *start, ambulo__run *run, ambulo__pool *pool,
+                                       ambulo_diagnostics *diagnostics, ambulo__row_roles *out);
 
 /* Sorts the equality rows: rank[rows] (inequalities are left independent). The check is
  * made at a generic point near `start`. `diagnostics` may be NULL: a warning with name and time for

@@ -43,7 +43,7 @@ typedef struct callback {
 } callback;
 
 static ambulo_status create(ambulo__engine *e, direct *d) {
-  ambulo__rows_split *rows = &e->linearized.rows;
+  ambulo__row_roles *rows = &e->linearized.rows;
   size_t n = (size_t)e->setup->n, largest = 1;
   *d = (direct){.engine = e,
                 .set = {&rows->equality, &rows->border, &rows->inequality},

@@ -104,7 +104,7 @@ static int project(ambulo__engine *e, const int *active) {
 }
 
 /* the scales that the solver gave the rows */
-static void restore_scales(ambulo__rows_split *rows) {
+static void restore_scales(ambulo__row_roles *rows) {
   for (int i = 0; i < rows->inequality.count; i++)
     ambulo__sparse_rows_set_scale(&rows->inequality, i, -1.0 / rows->size[i]);
 }
@@ -151,7 +151,7 @@ static int drop_slack(const ambulo__engine *e, double tolerance, double unit,
 
 /* from multipliers for a gradient of length 1 to those of grad J = sum multiplier grad c */
 static void collect_multipliers(const ambulo__engine *e, double size, ambulo_result *result) {
-  const ambulo__rows_split *s = e->setup->rows;
+  const ambulo__row_roles *s = e->setup->rows;
   const ambulo__iterate *iterate = &e->iterate;
   double unit = size / e->setup->objective_scale;
   memset(result->multiplier, 0, (size_t)result->rows * sizeof *result->multiplier);
@@ -203,7 +203,7 @@ static ambulo_status audit_rank(const ambulo__engine *e, const int *active, ambu
 
 /* every gradient at the point; 1 when one is not finite */
 static int take_gradients(ambulo__engine *e) {
-  ambulo__rows_split *rows = &e->linearized.rows;
+  ambulo__row_roles *rows = &e->linearized.rows;
   return ambulo__sparse_rows_fill(&rows->equality, e->workspace, 1) ||
          ambulo__sparse_rows_fill(&rows->border, e->workspace, 1) ||
          ambulo__sparse_rows_fill(&rows->inequality, e->workspace, 1) ||
