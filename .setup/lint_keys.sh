@@ -28,8 +28,8 @@ compare() {
     sed -E 's/^\| ([^|]*) \|.*/\1/' | grep -oE '`[a-z_]+`' | tr -d '`' | sort -u)
 }
 
-compare docs/model-format.md src/files/definitions/model_*.c src/files/formats/yaml_file_kind.c
-compare docs/problem-format.md src/files/definitions/problem_*.c src/engine/problem/members.c src/files/formats/yaml_file_kind.c
+compare docs/model-format.md src/files/definitions/model_*.c src/files/formats/yaml_load.c
+compare docs/problem-format.md src/files/definitions/problem_*.c src/engine/problem/members.c src/files/formats/yaml_load.c
 # shellcheck disable=SC2046 # of fit_*.c, those that read and write other files
 compare docs/guide-fit.md $(ls src/study/fit_*.c | grep -vE 'report|run|search|solves|values')
 exit $bad

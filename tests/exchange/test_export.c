@@ -33,9 +33,9 @@ static void torques(const ambulo_model *model, const ambulo_model *order, const 
     for (int k = 0; k < 3; k++) q[k][at] = state[k * d + i];
   }
   void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
-  assert_int_equal(ambulo__lagrangian_inverse_dynamics(
-                       model, q[0], q[1], q[2],
-                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = own}, scratch),
+  assert_int_equal(ambulo__lagrangian(0, model, q[0], q[1], q[2],
+                                      &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = own},
+                                      scratch),
                    AMBULO_OK);
   free(scratch);
   for (int i = 0; i < d; i++)

@@ -26,8 +26,8 @@ static void torques(const ambulo_model *model, const states *s, int reference, d
   if (reference) {
     void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
     assert_int_equal(
-        ambulo__lagrangian_inverse_dynamics(
-            model, s->q, s->qd, s->qdd,
+        ambulo__lagrangian(
+            0, model, s->q, s->qd, s->qdd,
             &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench},
             scratch),
         AMBULO_OK);

@@ -1,6 +1,7 @@
 /* A body at rest and the mass matrix: the zero-moment point is the centre of mass projected
  * along gravity, the wrench carries the weight, M is symmetric and positive, and q-dot' M q-dot
  * is twice the kinetic energy. */
+#include "support/lagrangian_energy.h"
 #include "mechanics/lagrangian.h"
 #include "identities/point_masses.h"
 
@@ -79,7 +80,7 @@ static void mass_matrix_is_symmetric_positive_and_gives_the_energy(void **state)
     pose(k + 5, qdd);
     ambulo_jacobians jacobians = {.size = sizeof(ambulo_jacobians), .tau_qdd = m};
     assert_int_equal(ambulo_mechanics_jacobians(mechanics, 1, q, qd, qdd, &jacobians), AMBULO_OK);
-    assert_int_equal(ambulo__lagrangian_energy(model, q, qd, &kinetic, &potential, scratch), 0);
+    lagrangian_energy(model, q, qd, &kinetic, &potential, scratch);
     for (int i = 0; i < n; i++) {
       for (int j = 0; j < n; j++) {
         assert_close(m[i * n + j], m[j * n + i], 1e-12);

@@ -96,14 +96,13 @@ static inline void case_state(const kernel_case *c, int lane, double *state) {
 }
 
 static inline void case_reference(const kernel_case *c, const double *state, double *rows) {
-  assert_int_equal(
-      ambulo__lagrangian_inverse_dynamics(c->model, state, state + c->d, state + 2 * c->d,
-                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                            .tau = rows,
-                                                            .wrench = rows + c->d,
-                                                            .points = rows + c->d + 6},
-                                          c->reference_scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo__lagrangian(0, c->model, state, state + c->d, state + 2 * c->d,
+                                      &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                        .tau = rows,
+                                                        .wrench = rows + c->d,
+                                                        .points = rows + c->d + 6},
+                                      c->reference_scratch),
+                   AMBULO_OK);
 }
 
 /* jacobian[group][row][column] of the reference; group 0: q, 1: qd, 2: qdd. */
@@ -116,13 +115,12 @@ static inline void case_jacobian(const kernel_case *c, const double *state, doub
   }
   for (int k = 0; k < 3 * c->d; k++) {
     z[2 * k + 1] = step;
-    assert_int_equal(ambulo__lagrangian_inverse_dynamics_complex(
-                         c->model, z, z + 2 * c->d, z + 4 * c->d,
-                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                           .tau = out,
-                                           .wrench = out + 2 * c->d,
-                                           .points = out + 2 * (c->d + 6)},
-                         c->reference_scratch),
+    assert_int_equal(ambulo__lagrangian(1, c->model, z, z + 2 * c->d, z + 4 * c->d,
+                                        &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                          .tau = out,
+                                                          .wrench = out + 2 * c->d,
+                                                          .points = out + 2 * (c->d + 6)},
+                                        c->reference_scratch),
                      AMBULO_OK);
     z[2 * k + 1] = 0;
     for (int row = 0; row < c->rows; row++) {

@@ -347,13 +347,12 @@ static void check_root(contact_case *c, const ambulo__kernels *kernels) {
     if (lane == in_flight) continue;
     case_state(b, lane, motion);
     for (int i = 0; i < 3 * b->d; i++) z[2 * i] = motion[i];
-    assert_int_equal(ambulo__lagrangian_inverse_dynamics_complex(
-                         b->model, z, z + 2 * b->d, z + 4 * b->d,
-                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                           .tau = (double *)rows,
-                                           .wrench = (double *)(rows + b->d),
-                                           .points = (double *)(rows + b->d + 6)},
-                         b->reference_scratch),
+    assert_int_equal(ambulo__lagrangian(1, b->model, z, z + 2 * b->d, z + 4 * b->d,
+                                        &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                          .tau = (double *)rows,
+                                                          .wrench = (double *)(rows + b->d),
+                                                          .points = (double *)(rows + b->d + 6)},
+                                        b->reference_scratch),
                      AMBULO_OK);
     for (int k = 0; k < c->contacts.count; k++) {
       double p[3];

@@ -78,13 +78,13 @@ static void places_and_centres_agree_with_the_mechanics(void **state) {
     const double zero[6] = {0};
     double tau[6], wrench[6], points[3 * random_max_points], r[3] = {0}, place[3];
     void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
-    assert_int_equal(
-        ambulo__lagrangian_inverse_dynamics(
-            model, zero, zero, zero,
-            &(ambulo_outputs){
-                .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
-            scratch),
-        AMBULO_OK);
+    assert_int_equal(ambulo__lagrangian(0, model, zero, zero, zero,
+                                        &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                          .tau = tau,
+                                                          .wrench = wrench,
+                                                          .points = points},
+                                        scratch),
+                     AMBULO_OK);
     ambulo__segments s;
     assert_int_equal(ambulo__segments_create(model, NULL, &s), AMBULO_OK);
     double mass = 0.0;

@@ -33,14 +33,13 @@ static pose evaluate(const ambulo_model *model, const double *q, const double *q
                      const double *qdd) {
   pose p;
   void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
-  assert_int_equal(
-      ambulo__lagrangian_inverse_dynamics(model, q, qd, qdd,
-                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                            .tau = p.tau,
-                                                            .wrench = p.wrench,
-                                                            .points = p.points[0]},
-                                          scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo__lagrangian(0, model, q, qd, qdd,
+                                      &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                        .tau = p.tau,
+                                                        .wrench = p.wrench,
+                                                        .points = p.points[0]},
+                                      scratch),
+                   AMBULO_OK);
   free(scratch);
   return p;
 }

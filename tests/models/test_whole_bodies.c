@@ -38,14 +38,13 @@ static void close_body(body *b) {
 }
 
 static void evaluate(body *b) {
-  assert_int_equal(
-      ambulo__lagrangian_inverse_dynamics(b->model, b->q, b->qd, b->qdd,
-                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                            .tau = b->tau,
-                                                            .wrench = b->wrench,
-                                                            .points = b->points[0]},
-                                          b->scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo__lagrangian(0, b->model, b->q, b->qd, b->qdd,
+                                      &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                        .tau = b->tau,
+                                                        .wrench = b->wrench,
+                                                        .points = b->points[0]},
+                                      b->scratch),
+                   AMBULO_OK);
 }
 
 static int coordinate(const body *b, const char *name) {

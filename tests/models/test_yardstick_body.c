@@ -59,13 +59,13 @@ static void outputs(const ambulo_model *model, int k, double out[YARDSTICK_OUTPU
   int count = ambulo_model_point_count(model);
   double(*points)[3] = malloc((size_t)count * sizeof *points);
   void *scratch = malloc(ambulo__lagrangian_scratch_size(model));
-  assert_int_equal(
-      ambulo__lagrangian_inverse_dynamics(
-          model, yardstick_q[k], yardstick_qd[k], yardstick_qdd[k],
-          &(ambulo_outputs){
-              .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points[0]},
-          scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo__lagrangian(0, model, yardstick_q[k], yardstick_qd[k], yardstick_qdd[k],
+                                      &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                        .tau = tau,
+                                                        .wrench = wrench,
+                                                        .points = points[0]},
+                                      scratch),
+                   AMBULO_OK);
   for (int i = 0; i < 18; i++) {
     out[i] = i < 3 ? 0.05 * (tau[i] - (i == 2 ? WEIGHT : 0)) : tau[i];
   }

@@ -219,13 +219,12 @@ static inline ambulo_status contact_reference(const ambulo_model *model,
                                               const double *qd, const double *qdd, double *rows,
                                               void *scratch) {
   int d = model->coordinate_count, points = 3 * model->point_count;
-  ambulo_status status =
-      ambulo__lagrangian_inverse_dynamics_complex(model, q, qd, qdd,
-                                                  &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                                    .tau = rows,
-                                                                    .wrench = rows + 2 * d,
-                                                                    .points = rows + 2 * (d + 6)},
-                                                  scratch);
+  ambulo_status status = ambulo__lagrangian(1, model, q, qd, qdd,
+                                            &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                              .tau = rows,
+                                                              .wrench = rows + 2 * d,
+                                                              .points = rows + 2 * (d + 6)},
+                                            scratch);
   if (status != AMBULO_OK) return status;
   const link_state *states = scratch;
   scalar *out = (scalar *)(void *)rows, *contact = out + d + 6 + points;

@@ -110,13 +110,13 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
         qd[i] = channel(&f, node, ambulo__channel_qd(c, i));
         qdd[i] = channel(&f, node, ambulo__channel_qdd(c, i));
       }
-      assert_int_equal(
-          ambulo__lagrangian_inverse_dynamics(
-              f.model, q, qd, qdd,
-              &(ambulo_outputs){
-                  .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
-              scratch),
-          AMBULO_OK);
+      assert_int_equal(ambulo__lagrangian(0, f.model, q, qd, qdd,
+                                          &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                            .tau = tau,
+                                                            .wrench = wrench,
+                                                            .points = points},
+                                          scratch),
+                       AMBULO_OK);
       for (int slot = 0; slot < c->slots; slot++) {
         contact of = contact_at(&f, node, slot);
         for (int i = 0; i < n; i++) tau[i] -= virtual_work(&pose, q, i, slots.link[slot], &of);

@@ -1,4 +1,9 @@
-/* base/diagnostics.h - adding messages to a list (the list itself: ambulo/status.h). */
+/* base/diagnostics.h - adding messages to a list (the list itself: ambulo/status.h).
+ *
+ * Reading order: diagnostics.h, alloc.h, arithmetic.h (how maxima treat what is not finite),
+ * lanes.h (the layout of all node arrays), sized.h; numtext.h and text_buffer.h where texts are
+ * written; the rest as it is called.
+ */
 #ifndef AMBULO_BASE_DIAGNOSTICS_H
 #define AMBULO_BASE_DIAGNOSTICS_H
 

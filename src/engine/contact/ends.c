@@ -400,12 +400,12 @@ static ambulo_status check_ground(const ambulo_problem_definition *d, const int 
   if (!status) {
     double *place = state + 4 * n + 6;
     for (int i = 0; i < model->coordinate_count; i++) (void)value_at(d, i, 0, final, &state[i]);
-    status = ambulo__lagrangian_inverse_dynamics(model, state, state + n, state + 2 * n,
-                                                 &(ambulo_outputs){.size = sizeof(ambulo_outputs),
-                                                                   .tau = state + 3 * n,
-                                                                   .wrench = state + 4 * n,
-                                                                   .points = place},
-                                                 scratch);
+    status = ambulo__lagrangian(0, model, state, state + n, state + 2 * n,
+                                &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                  .tau = state + 3 * n,
+                                                  .wrench = state + 4 * n,
+                                                  .points = place},
+                                scratch);
     if (!status) status = check_feet(d, active, final, place, list);
   }
   ambulo__free(allocator, state);

@@ -278,8 +278,8 @@ typedef struct standing {
 } standing;
 
 static ambulo_status evaluate(const standing *s) {
-  return ambulo__lagrangian_inverse_dynamics(
-      s->model, s->q, s->zero, s->zero,
+  return ambulo__lagrangian(
+      0, s->model, s->q, s->zero, s->zero,
       &(ambulo_outputs){
           .size = sizeof(ambulo_outputs), .tau = s->tau, .wrench = s->wrench, .points = s->points},
       s->scratch);

@@ -87,7 +87,7 @@ static void forward(const ambulo_model *model, int is_complex, const double *q, 
     const matrix *a = p ? &p->a : &identity, *b = p ? &p->b : &zero, *c = p ? &p->c : &zero;
     int k = link->coordinate;
     scalar v = k >= 0 ? component(qd, is_complex, k) : 0;
-    scalar w = k >= 0 && qdd ? component(qdd, is_complex, k) : 0;
+    scalar w = k >= 0 ? component(qdd, is_complex, k) : 0;
     transform(link, k >= 0 ? component(q, is_complex, k) : 0, s);
     s->a = s->b = s->c = zero;
     add_product(&s->a, 1, a, &s->t, 1); /* (4) */
@@ -218,9 +218,9 @@ static void copy_out(double *out, int is_complex, const scalar *values, size_t c
   }
 }
 
-static ambulo_status inverse_dynamics(const ambulo_model *model, int is_complex, const double *q,
-                                      const double *qd, const double *qdd,
-                                      const ambulo_outputs *outputs, void *scratch) {
+ambulo_status ambulo__lagrangian(int is_complex, const ambulo_model *model, const double *q,
+                                 const double *qd, const double *qdd, const ambulo_outputs *outputs,
+                                 void *scratch) {
   ambulo_outputs out;
   if (!model || !scratch || !AMBULO__OWN(ambulo_outputs, &out, outputs)) return AMBULO_E_ARGUMENT;
   if (model->coordinate_count > 0 && (!q || !qd || !qdd)) return AMBULO_E_ARGUMENT;
@@ -242,49 +242,5 @@ static ambulo_status inverse_dynamics(const ambulo_model *model, int is_complex,
   copy_out(out.tau, is_complex, forces, dofs);
   copy_out(out.wrench, is_complex, total, 6);
   copy_out(out.points, is_complex, places, point_values);
-  return AMBULO_OK;
-}
-
-ambulo_status ambulo__lagrangian_inverse_dynamics(const ambulo_model *model, const double *q,
-                                                  const double *qd, const double *qdd,
-                                                  const ambulo_outputs *outputs, void *scratch) {
-  return inverse_dynamics(model, 0, q, qd, qdd, outputs, scratch);
-}
-
-ambulo_status ambulo__lagrangian_inverse_dynamics_complex(const ambulo_model *model,
-                                                          const double *q, const double *qd,
-                                                          const double *qdd,
-                                                          const ambulo_outputs *outputs,
-                                                          void *scratch) {
-  return inverse_dynamics(model, 1, q, qd, qdd, outputs, scratch);
-}
-
-/* (E): T = sum tr(B J B^T) / 2,  V = -sum m g . c. */
-ambulo_status ambulo__lagrangian_energy(const ambulo_model *model, const double *q,
-                                        const double *qd, double *kinetic, double *potential,
-                                        void *scratch) {
-  if (!model || !scratch) return AMBULO_E_ARGUMENT;
-  if (model->coordinate_count > 0 && (!q || !qd)) return AMBULO_E_ARGUMENT;
-  link_state *states = scratch;
-  double t = 0, v = 0;
-  forward(model, 0, q, qd, NULL, states);
-  for (int i = 0; i < model->link_count; i++) {
-    const ambulo_link *link = &model->links[i];
-    scalar c[3];
-    double j[4][4];
-    pseudo_inertia(link, j);
-    apply(&states[i].a, link->com, c);
-    for (int row = 0; row < 3; row++) {
-      for (int a = 0; a < 4; a++) {
-        for (int b = 0; b < 4; b++) {
-          t += 0.5 * creal(states[i].b.e[row][a]) * j[a][b] * creal(states[i].b.e[row][b]);
-        }
-      }
-      v -= link->mass * model->gravity[row] * creal(c[row]);
-    }
-  }
-  if (!isfinite(t) || !isfinite(v)) return AMBULO_E_NUMERIC;
-  if (kinetic) *kinetic = t;
-  if (potential) *potential = v;
   return AMBULO_OK;
 }

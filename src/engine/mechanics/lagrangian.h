@@ -2,8 +2,7 @@
  * state. The tests compare everything else with it.
  *
  * It allocates nothing: `scratch` has ambulo__lagrangian_scratch_size(model) bytes, aligned for
- * double. The complex form takes interleaved (re, im) pairs everywhere, which is the memory layout
- * of double complex, and serves complex-step derivatives.
+ * double.
  */
 #ifndef AMBULO_MECHANICS_LAGRANGIAN_H
 #define AMBULO_MECHANICS_LAGRANGIAN_H
@@ -13,22 +12,14 @@
 #include <complex.h>
 
 size_t ambulo__lagrangian_scratch_size(const ambulo_model *model);
-/* A, B, C forward (Eqs. 4-6), D and E backward (Eqs. 11-12), tau by Eq. (10). */
-ambulo_status ambulo__lagrangian_inverse_dynamics(const ambulo_model *model, const double *q,
-                                                  const double *qd, const double *qdd,
-                                                  const ambulo_outputs *outputs, void *scratch);
-ambulo_status ambulo__lagrangian_inverse_dynamics_complex(const ambulo_model *model,
-                                                          const double *q, const double *qd,
-                                                          const double *qdd,
-                                                          const ambulo_outputs *outputs,
-                                                          void *scratch);
-/* Kinetic and potential energy, J, the latter zero at the world's origin: dE/dt = qd . tau. */
-ambulo_status ambulo__lagrangian_energy(const ambulo_model *model, const double *q,
-                                        const double *qd, double *kinetic, double *potential,
-                                        void *scratch);
+/* A, B, C forward (Eqs. 4-6), D and E backward (Eqs. 11-12), tau by Eq. (10). is_complex: q, qd,
+ * qdd and the outputs are pairs (re, im), the memory layout of double complex, for derivatives by
+ * complex steps. Errors: E_ARGUMENT, E_NUMERIC. */
+ambulo_status ambulo__lagrangian(int is_complex, const ambulo_model *model, const double *q,
+                                 const double *qd, const double *qdd, const ambulo_outputs *outputs,
+                                 void *scratch);
 
-/* what the reference recursion leaves in its scratch: the states of
- * the links, in order, in complex numbers (lagrangian.c). */
+/* What it leaves in its scratch: the states of the links, in order, in complex numbers. */
 
 typedef double complex scalar;
 

@@ -106,5 +106,5 @@ int main(void) {
       cmocka_unit_test(strange_files),
       cmocka_unit_test(wrong_kinds),
   };
-  return cmocka_run_group_tests_name("format/yaml_file_kind", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("formats/yaml_load", tests, NULL, NULL);
 }

@@ -1,9 +1,82 @@
-/* formats/yaml_file_kind.c - which of the formats a file is in, and what to do with the wrong one.
- */
+/* formats/yaml_load.c - from a file to a document; which of the formats it is in, and what to do
+ * with the wrong one. */
+#include "formats/atomic_file.h"
+#include "formats/foreign_format.h"
+#include "formats/read_file.h"
 #include "formats/yaml_tree.h"
 
 #include <stdio.h>
 #include <string.h>
+
+/* --------------------------------------------------------------------- loading */
+
+static ambulo_status check_root(const ambulo__yaml *document, size_t length) {
+  static const char *const kinds[] = {"scalar", "sequence", "mapping"};
+  const ambulo__yaml_node *root = document->root;
+  ambulo__place place = {document->file, 1, 1, NULL};
+  if (!root || (root->kind == AMBULO__YAML_SCALAR && !root->quoted && root->text[0] == '\0')) {
+    return ambulo__error(document->diagnostics, AMBULO_E_PARSE, place, NULL,
+                         "%s; expected YAML: lines 'key: value'",
+                         length ? "nothing but blank lines and comments" : "the file is empty");
+  }
+  if (root->kind != AMBULO__YAML_MAPPING) {
+    return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, ambulo__yaml_place(root),
+                         "the file should hold YAML: lines 'key: value'",
+                         "got a %s at the top level; expected a mapping", kinds[root->kind]);
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status fill(ambulo__yaml *document, const char *text, size_t length,
+                          const char *name) {
+  ambulo__place place = {name, 0, 0, NULL};
+  if (length > AMBULO__YAML_MAX_BYTES) {
+    return ambulo__error(document->diagnostics, AMBULO_E_LIMIT, place, NULL,
+                         "text too large (got %zu bytes); expected at most %d", length,
+                         AMBULO__YAML_MAX_BYTES);
+  }
+  if (name) {
+    document->file = ambulo__yaml_copy(document, name, strlen(name));
+    if (!document->file) return ambulo__io_memory_error(document->diagnostics, name);
+  }
+  ambulo_status status = ambulo__refuse_foreign(text, length, AMBULO__TAKES_YAML, document->file,
+                                                document->diagnostics);
+  if (status == AMBULO_OK)
+    status = ambulo__yaml_parse(document, text, length, document->file, 0, &document->root);
+  return status == AMBULO_OK ? check_root(document, length) : status;
+}
+
+ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char *name,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo__yaml **document) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__yaml *made = ambulo__alloc(&own, 1, sizeof *made);
+  if (!made) return ambulo__io_memory_error(diagnostics, name);
+  made->allocator = own;
+  made->diagnostics = diagnostics;
+  ambulo_status status = fill(made, text, length, name);
+  if (status == AMBULO_OK) {
+    *document = made;
+  } else {
+    ambulo__yaml_free(made);
+  }
+  return status;
+}
+
+ambulo_status ambulo__yaml_load(const char *path, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo__yaml **document) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status =
+      ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, &own, diagnostics, &text, &length);
+  if (status != AMBULO_OK) return status;
+  status = ambulo__yaml_load_text(text, length, path, &own, diagnostics, document);
+  ambulo__free(&own, text);
+  return status;
+}
+
+/* -------------------------------------------------------------------- which format */
 
 enum { MAX_TEXT = 200 };
 
