@@ -9,7 +9,7 @@
  * is that of the problem file, or what the condition sets it to.
  *
  * A condition c is a set of overrides with reference curves. Its targets j, in the order of the
- * distance's curves, each have a block of residuals (fit_residual.c); those of all fitted
+ * distance's curves, each have a block of residuals (fit_conditions.c); those of all fitted
  * conditions, one behind the other, are the vector r [residuals] with
  *
  *     D = r'r = sum_cj weight_c weight_j z_cj / sum_cj weight_c weight_j
@@ -17,8 +17,9 @@
  * z_cj being 1 where a curve is off by one standard deviation. What is minimized is the cost
  * D + ridge |u|^2 / parameters.
  *
- * Files in order: fit_file.c, fit_conditions.c, fit_values.c (u to numbers of the problem),
- * fit_solves.c (trials as cases of a batch), fit_residual.c, fit_search.c, fit_run.c, fit_report.c.
+ * Files in order: fit_file.c, fit_conditions.c (references and residuals), fit_values.c (u to
+ * numbers of the problem), fit_solves.c (trials as cases of a batch), fit_search.c, fit_run.c,
+ * fit_report.c.
  */
 #ifndef AMBULO_STUDY_FIT_H
 #define AMBULO_STUDY_FIT_H
@@ -159,8 +160,7 @@ typedef struct ambulo__fit_score {
   double value, reference; /* of a number */
 } ambulo__fit_score;
 
-/* fit_residual.c: y [points] of the target, NULL: the solve failed; residual [count of the target].
- */
+/* fit_conditions.c: residual [count of the target] of y [points]; y NULL: the solve failed. */
 void ambulo__fit_residual(const ambulo_fit *fit, const ambulo__fit_target *target, const double *y,
                           double *residual, ambulo__fit_score *score);
 

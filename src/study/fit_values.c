@@ -71,9 +71,9 @@ ambulo_status ambulo__fit_overrides(const ambulo_fit *fit, int condition, const 
 
 /* ------------------------------------------------------------------ own values */
 
-/* says at `node` what a list says first */
-static ambulo_status retell(const ambulo__yaml_node *node, ambulo_status status, const char *lead,
-                            const ambulo_diagnostics *list) {
+/* reports at `node` the first error of a list */
+static ambulo_status report_at(const ambulo__yaml_node *node, ambulo_status status,
+                               const char *lead, const ambulo_diagnostics *list) {
   const ambulo_diagnostic *m = NULL;
   for (size_t i = 0; i < ambulo_diagnostics_count(list) && !m; i++) {
     m = ambulo_diagnostics_get(list, i);
@@ -136,8 +136,8 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
       ambulo__diagnostics_clear(list);
       int found = value_at(document, p->key[k], list, value);
       (void)snprintf(lead, sizeof lead, "key '%.120s' of the problem", p->key[k]);
-      ambulo_status told = found || !c ? AMBULO_OK : retell(node, AMBULO_E_SCHEMA, lead, list);
-      if (told == AMBULO_E_MEMORY) status = told;
+      ambulo_status error = found || !c ? AMBULO_OK : report_at(node, AMBULO_E_SCHEMA, lead, list);
+      if (error == AMBULO_E_MEMORY) status = error;
       if (found && c && p->scale == AMBULO__FIT_LOG && *value == 0.0)
         (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, "scale: linear adds to it",
                                  "'%s' is 0, which no factor changes; expected another number",
@@ -145,8 +145,8 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
     }
   }
   if (status && status != AMBULO_E_MEMORY)
-    status = retell(ambulo__yaml_get(ambulo__yaml_root(fit->document), "problem"), status,
-                    "the problem cannot be read", list);
+    status = report_at(ambulo__yaml_get(ambulo__yaml_root(fit->document), "problem"), status,
+                       "the problem cannot be read", list);
   ambulo__yaml_free(document);
   ambulo_diagnostics_free(list);
   return status;
@@ -170,7 +170,7 @@ static ambulo_status try_at(const ambulo_fit *fit, int condition, const double *
   int own = status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO ||
             status == AMBULO_E_ARGUMENT;
   if (own)
-    status = retell(node, status, lead, list);
+    status = report_at(node, status, lead, list);
   else if (status != AMBULO_E_MEMORY)
     status = AMBULO_OK;
   ambulo_diagnostics_free(list);
