@@ -317,7 +317,11 @@ static int run_command(parser *p, char **paths) {
   }
   ambulo__cli_input input = {p->command, p->arguments, p->argument_count,
                              p->options, p->values,    p->given_count};
-  return p->command->run(&input);
+  code = p->command->run(&input);
+  int most = p->command->files, is_lost = code == ambulo_status_exit_code(AMBULO_E_IO);
+  for (int i = 0; is_lost && i < p->argument_count && (most < 0 || i < most); i++)
+    ambulo__cli_shipped_hint(p->arguments[i]);
+  return code;
 }
 
 int ambulo__cli_run(const ambulo__cli_command *command, int argc, char **argv) {

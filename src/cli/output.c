@@ -12,8 +12,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli/shipped.h"
-
 enum { USUAL_LINE = 240 };
 
 void ambulo__cli_format(char *buffer, size_t size, const char *format, ...) {
@@ -90,7 +88,6 @@ int ambulo__cli_diagnostics_but(const ambulo_diagnostics *diagnostics, ambulo_st
   if (status && errors == 0)
     ambulo__cli_error(ambulo_status_name(status), NULL, "%s: %s", subject,
                       ambulo_status_text(status));
-  if (status == AMBULO_E_IO) ambulo__cli_shipped_hint(subject);
   return ambulo_status_exit_code(status);
 }
 

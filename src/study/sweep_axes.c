@@ -184,9 +184,9 @@ static ambulo_status read_head(ambulo_sweep *sweep, const ambulo__yaml_node *nod
                                ambulo__axis **axis) {
   const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
   const char *name = ambulo__yaml_text(ambulo__yaml_get(node, "name"));
+  const char *path = ambulo__yaml_text(key);
   if (!ambulo__yaml_is(key, AMBULO__YAML_SCALAR)) return AMBULO_E_SCHEMA;
-  ambulo_status status =
-      ambulo__sweep_add_axis(sweep, name, ambulo__yaml_text(key), ambulo__spot_of(key), axis);
+  ambulo_status status = ambulo__sweep_add_axis(sweep, name, path, ambulo__spot_of(key), axis);
   if (!status) status = ambulo__sweep_copy(sweep, ambulo__yaml_get(node, "label"), &(*axis)->label);
   if (!status) status = ambulo__sweep_copy(sweep, ambulo__yaml_get(node, "unit"), &(*axis)->unit);
   return status;
