@@ -110,7 +110,7 @@ typedef struct ambulo_options {
   void *user;
 } ambulo_options;
 
-AMBULO_DEFAULT(ambulo_options);
+AMBULO_PROBLEM_DEFAULT(ambulo_options);
 /* The defaults, changed by what the problem file says under `solver:`. */
 AMBULO_API void ambulo_problem_options_fill(const ambulo_problem *problem, ambulo_options *filled,
                                             size_t size);

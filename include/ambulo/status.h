@@ -89,12 +89,11 @@ AMBULO_API int ambulo_status_exit_code(ambulo_status status);
 /* ----------------------------------------------------------------- defaults */
 
 /* Sets the first `bytes` bytes of the structure type `name` ("ambulo_options") to its defaults:
- * what
- * `_default()` of the headers calls. A `size` member becomes `bytes`. Sizes of items and parts, and
- * the kind of a device or a term, on which defaults depend, are set by the caller before.
- * ambulo_problem_defaults knows a problem's definition and its parts, ambulo_defaults the other
- * structures of the engine, ambulo_tool_defaults (ambulo/tools/common.h) those of the tools.
- * E_ARGUMENT, and nothing is written: another name. */
+ * what `_default()` of the headers calls. A `size` member becomes `bytes`. Sizes of items and
+ * parts, and the kind of a device or a term, on which defaults depend, are set by the caller
+ * before. ambulo_problem_defaults knows a problem's definition, its parts and ambulo_options,
+ * ambulo_defaults the other structures of the engine, ambulo_tool_defaults (ambulo/tools/common.h)
+ * those of the tools. E_ARGUMENT, and nothing is written: another name. */
 AMBULO_API ambulo_status ambulo_defaults(const char *name, void *structure, size_t bytes);
 AMBULO_API ambulo_status ambulo_problem_defaults(const char *name, void *structure, size_t bytes);
 

@@ -37,14 +37,16 @@ static int has_span(const char *line) {
   return 0;
 }
 
+static int is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 static int has_number(const char *line, double value) {
-  char text[40];
-  (void)snprintf(text, sizeof text, "%.10g", value);
-  size_t length = strlen(text);
-  for (const char *at = strstr(line, text); at; at = strstr(at + 1, text)) {
-    int before = (at[-1] >= '0' && at[-1] <= '9') || at[-1] == '.';
-    int behind = (at[length] >= '0' && at[length] <= '9') || at[length] == '.';
-    if (!before && !behind) return 1;
+  for (const char *at = line + 1; *at; at++) {
+    if (!is_digit(*at) || is_digit(at[-1]) || at[-1] == '.') continue;
+    char *end;
+    if (strtod(at[-1] == '-' ? at - 1 : at, &end) == value || strtod(at, &end) == value) return 1;
+    at = end - 1;
   }
   return 0;
 }
@@ -87,7 +89,7 @@ static void the_page_says_what_the_tables_do(void **state) {
       &ambulo__definition_members, &ambulo__clearance_members, &ambulo__ground_reaction_members,
       &ambulo__collision_members,  &ambulo__contact_members,   &ambulo__tube_members,
       &ambulo__obstacle_members,   &ambulo__reach_members,     &ambulo__device_members,
-      &ambulo__hold_members,       &ambulo__term_members};
+      &ambulo__hold_members,       &ambulo__term_members,      &ambulo__options_members};
   int faults = 0;
   read_page();
   for (size_t i = 0; i < sizeof structures / sizeof *structures; i++)

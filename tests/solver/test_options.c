@@ -29,10 +29,10 @@ static void each_fault_is_named(void **state) {
   refuse(o, "maximum_evaluations");
   o = ambulo_options_default();
   o.time_limit = 0.0;
-  refuse(o, "solver.time_limit is 0 s; expected more than 0, or AMBULO_OFF");
+  refuse(o, "solver.time_limit is 0 s; expected 1e-09 to inf, or AMBULO_OFF");
   o = ambulo_options_default();
   o.maximum_memory = -1.0;
-  refuse(o, "solver.maximum_memory is -1 bytes; expected more than 0, or AMBULO_OFF");
+  refuse(o, "solver.maximum_memory is -1 bytes; expected 1 to inf, or AMBULO_OFF");
   o = ambulo_options_default();
   static const double no_tolerance[] = {0.0, -1e-6, 1e-300, 1e-15, 1.1, 1e300, INFINITY, NAN};
   for (size_t i = 0; i < sizeof no_tolerance / sizeof *no_tolerance; i++) {

@@ -102,17 +102,6 @@ static const ambulo__usual rows[] = {
          .other_step_time = AMBULO_OFF}),
     ROW(ambulo_extension, 3, {0}),
 
-    ROW(ambulo_options, 1,
-        {.algorithm = AMBULO_AUTO,
-         .maximum_evaluations = 20000,
-         .maximum_iterations = 150,
-         .time_limit = AMBULO_OFF,
-         .maximum_memory = AMBULO_OFF,
-         .feasibility_tolerance = 1e-6,
-         .optimality_tolerance = 1e-3,
-         .continuation = 1,
-         .starts = 1,
-         .dense_samples = 10}),
     ROW(ambulo_parameter, 0, {.lower = AMBULO_OFF, .upper = AMBULO_OFF}),
     ROW(ambulo_parameters, 2, {.maximum_solves = 60}),
 };

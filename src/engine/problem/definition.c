@@ -91,7 +91,8 @@ const char *ambulo__quantity_unit(ambulo__quantity quantity) {
                                       [AMBULO__EVENT_TIME] = "s",
                                       [AMBULO__TURNING_STIFF] = "N m/rad",
                                       [AMBULO__STIFF] = "N/m",
-                                      [AMBULO__RATIO] = ""};
+                                      [AMBULO__RATIO] = "",
+                                      [AMBULO__BYTES] = "bytes"};
   return units[quantity];
 }
 

@@ -57,6 +57,10 @@ ambulo_status ambulo__extension_take(const ambulo_extension *given,
                                      ambulo__taken_definition *taken);
 void ambulo__definition_drop(ambulo__taken_definition *taken);
 
+/* Every option in its range, else E_ARGUMENT with its key. */
+ambulo_status ambulo__option_ranges_check(const ambulo_options *options,
+                                          ambulo_diagnostics *diagnostics);
+
 /* Numbers for a body of another size (definition_resize.c): of the first `terms` terms of the
  * objective, and of all else. The arrays of these terms, and the list of them, belong to the
  * caller, and are written to. */

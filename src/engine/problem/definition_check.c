@@ -26,11 +26,15 @@ static const double largest = 1e12;   /* end values, prices */
 
 /* A member of a definition, a part or a term, under its name in files. */
 typedef struct checked {
-  const ambulo_problem_definition *definition;
+  const ambulo_problem_definition *definition; /* NULL: of options */
   const ambulo__member *member;
   const char *owner; /* with what stands behind it: "objective[0] (upright): ", or "" */
+  ambulo_status fault;
   ambulo_diagnostics *list;
 } checked;
+
+#define REFUSE_MEMBER(c, ...)                                                                      \
+  ambulo__error((c)->list, (c)->fault, ambulo__nowhere, NULL, __VA_ARGS__)
 
 static int lies_in(const ambulo__member *m, double value) {
   double range[2];
@@ -50,20 +54,21 @@ static ambulo_status check_numbers(const checked *c, const double *value, size_t
     const char *unit = ambulo__quantity_unit(m->quantity);
     double range[2];
     ambulo__member_range(m, range);
-    return REFUSE(c->list, "%s%s%s is %g%s%s; expected %g to %g%s", c->owner, m->key, place,
-                  value[i], unit[0] ? " " : "", unit, range[0], range[1],
-                  m->flags & AMBULO__MAY_BE_OFF ? ", or AMBULO_OFF" : "");
+    return REFUSE_MEMBER(c, "%s%s%s is %g%s%s; expected %g to %g%s", c->owner, m->key, place,
+                         value[i], unit[0] ? " " : "", unit, range[0], range[1],
+                         m->flags & AMBULO__MAY_BE_OFF ? ", or AMBULO_OFF" : "");
   }
   if (m->flags & AMBULO__RISING && value && !(value[0] < value[1]))
-    return REFUSE(c->list, "%s%s is [%g, %g]; expected lower < upper", c->owner, m->key, value[0],
-                  value[1]);
+    return REFUSE_MEMBER(c, "%s%s is [%g, %g]; expected lower < upper", c->owner, m->key, value[0],
+                         value[1]);
   return AMBULO_OK;
 }
 
 static ambulo_status check_integer(const checked *c, int value) {
   const ambulo__member *m = c->member;
   if (value >= m->low && value <= m->high) return AMBULO_OK;
-  return REFUSE(c->list, "%s%s is %d; expected %g to %g", c->owner, m->key, value, m->low, m->high);
+  return REFUSE_MEMBER(c, "%s%s is %d; expected %g to %g", c->owner, m->key, value, m->low,
+                       m->high);
 }
 
 /* constants of enumerations go from 1 on where 0 is that nobody chose */
@@ -79,13 +84,13 @@ static ambulo_status check_choice(const checked *c, int value) {
                                             : ", ",
                    m->first_word + k, m->words[k]);
   }
-  return REFUSE(c->list, "%s%s is %s (got %d); expected %s", c->owner, m->key,
-                value || m->first_word == 0 ? "unknown" : "not set", value, expected);
+  return REFUSE_MEMBER(c, "%s%s is %s (got %d); expected %s", c->owner, m->key,
+                       value || m->first_word == 0 ? "unknown" : "not set", value, expected);
 }
 
 /* the degree is a spline's alone */
 static int matters(const ambulo_problem_definition *d, const ambulo__member *m) {
-  return d->discretization == AMBULO_BSPLINE || strcmp(m->key, "trajectory.degree") != 0;
+  return !d || d->discretization == AMBULO_BSPLINE || strcmp(m->key, "trajectory.degree") != 0;
 }
 
 static ambulo_status check_member(const checked *c, const void *item) {
@@ -103,25 +108,31 @@ static ambulo_status check_member(const checked *c, const void *item) {
   return AMBULO_OK;
 }
 
-/* every member with a range, of a structure that `owner` names ("": keys are whole paths), and of
+/* every member with a range, of a structure that c->owner names ("": keys are whole paths), and of
  * its parts; of a term what its kind has; the last fault */
-static ambulo_status check_members(const ambulo_problem_definition *d, const ambulo__structure *s,
-                                   const char *owner, const void *item, int kinds,
-                                   ambulo_diagnostics *list) {
+static ambulo_status check_members(checked c, const ambulo__structure *s, const void *item,
+                                   int kinds) {
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < s->count; i++) {
     const ambulo__member *m = &s->members[i];
-    checked c = {d, m, owner, list};
     ambulo_status one = AMBULO_OK;
     char part[48];
+    c.member = m;
     if (m->type == AMBULO__PART) {
+      checked inner = c;
       (void)snprintf(part, sizeof part, "%s.", m->key);
-      one = check_members(d, m->of, part, (const char *)item + m->at, 0, list);
-    } else if (m->key && (!m->of_kinds || m->of_kinds & kinds) && matters(d, m))
+      inner.owner = part;
+      one = check_members(inner, m->of, (const char *)item + m->at, 0);
+    } else if (m->key && (!m->of_kinds || m->of_kinds & kinds) && matters(c.definition, m))
       one = check_member(&c, item);
     if (one) status = one;
   }
   return status;
+}
+
+ambulo_status ambulo__option_ranges_check(const ambulo_options *options, ambulo_diagnostics *list) {
+  checked c = {.owner = "", .fault = AMBULO_E_ARGUMENT, .list = list};
+  return check_members(c, &ambulo__options_members, options, 0);
 }
 
 /* arrays of which there are items */
@@ -251,7 +262,8 @@ static ambulo_status check_numbers_of_term(const ambulo_problem_definition *d, i
   const ambulo__term_info *info = ambulo__term_info_of(d->terms[t].kind);
   char owner[64];
   (void)snprintf(owner, sizeof owner, "objective[%d] (%s): ", t, info->name);
-  return check_members(d, &ambulo__term_members, owner, &d->terms[t], info->members, list);
+  checked c = {d, NULL, owner, AMBULO_E_PROBLEM, list};
+  return check_members(c, &ambulo__term_members, &d->terms[t], info->members);
 }
 
 static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
@@ -315,7 +327,8 @@ ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
   const ambulo__structure *all = &ambulo__definition_members;
   if (!d || d->size != sizeof *d || !d->model || !arrays_are_there(all, d))
     return AMBULO_E_ARGUMENT;
-  ambulo_status status = check_members(d, all, "", d, 0, diagnostics);
+  checked c = {d, NULL, "", AMBULO_E_PROBLEM, diagnostics};
+  ambulo_status status = check_members(c, all, d, 0);
   if (!status) status = check_breakpoints(d, diagnostics);
   if (!status) status = check_places(d, diagnostics);
   ambulo_status others[] = {check_terms(d, diagnostics),

@@ -35,7 +35,8 @@ static const struct {
              {"ambulo_reach", &ambulo__reach_members},
              {"ambulo_hold", &ambulo__hold_members},
              {"ambulo_device", &ambulo__device_members},
-             {"ambulo_term", &ambulo__term_members}};
+             {"ambulo_term", &ambulo__term_members},
+             {"ambulo_options", &ambulo__options_members}};
 
 typedef union part_storage {
   int kind; /* the first member of devices and terms, which have one */
@@ -52,6 +53,7 @@ typedef union part_storage {
   ambulo_hold hold;
   ambulo_device device;
   ambulo_term term;
+  ambulo_options options;
 } part_storage;
 
 /* defaults of a part of which `item` is the beginning, so that it has its kind */
@@ -131,6 +133,8 @@ ambulo_status ambulo_problem_defaults(const char *name, void *structure, size_t 
     part_storage usual;
     fill_part(parts[i].members, &usual, structure);
     ambulo__sized_fill(structure, bytes, &usual, parts[i].members->size);
+    int begins_with_size = parts[i].members->members[0].at > 0;
+    if (begins_with_size) memcpy(structure, &bytes, sizeof bytes);
     return AMBULO_OK;
   }
   return AMBULO_E_ARGUMENT;

@@ -304,7 +304,8 @@ static const char *const kinds_of_ends[] = {"free", "periodic", "mirrored"};
 static const ambulo__member definition[] = {
     {TEXT("name", name), APART},
     {BORROWED(model)},
-    {NUMBER("time.duration", duration, 1e-6, 1e6, 1.0), EXACT | APART, AMBULO__TIME, "duration"},
+    {NUMBER("time.duration", duration, 1e-6, 1e6, 1.0), EXACT | APART | REQUIRED, AMBULO__TIME,
+     "duration"},
     {INTEGER("time.intervals", intervals, 1, AMBULO__MOST_INTERVALS, 12), REQUIRED},
     {CHOICE("time.grid", grid, grids, AMBULO_GRID_UNIFORM, AMBULO_GRID_UNIFORM)},
     {CHOICE("trajectory.basis", discretization, bases, AMBULO_BSPLINE, AMBULO_BSPLINE)},
@@ -358,4 +359,32 @@ static const ambulo__member definition[] = {
     {COUNTER(user_row_count)},
 };
 TABLE(NULL, definition);
+#undef OF
+
+/* ----------------------------------------------------------- options of the solver */
+
+static const char *const algorithms[] = {"auto", "slsqp", "auglag"};
+static const char *const switches[] = {"off", "on", "false", "true"};
+static const char *const refinements[] = {"given", "auto"};
+#define OF ambulo_options
+static const ambulo__member options[] = {
+    {CHOICE("solver.algorithm", algorithm, algorithms, AMBULO_AUTO, AMBULO_AUTO)},
+    {INTEGER("solver.maximum_evaluations", maximum_evaluations, 1, 1e9, 20000)},
+    {INTEGER("solver.maximum_iterations", maximum_iterations, 1, 1e9, 150)},
+    {NUMBER("solver.time_limit", time_limit, 1e-9, 1e9, AMBULO_OFF), OFF | INFINITE | EXACT | APART,
+     AMBULO__TIME},
+    {NUMBER("solver.maximum_memory", maximum_memory, 1.0, 1e18, AMBULO_OFF),
+     OFF | INFINITE | EXACT | APART, AMBULO__BYTES},
+    {NUMBER("solver.feasibility_tolerance", feasibility_tolerance, 1e-14, 1.0, 1e-6), EXACT,
+     AMBULO__RATIO},
+    {NUMBER("solver.optimality_tolerance", optimality_tolerance, 1e-14, 1.0, 1e-3), EXACT,
+     AMBULO__RATIO},
+    {FLAG("solver.continuation", continuation, 1), .words = switches, .word_count = 4},
+    {INTEGER("solver.dense_samples", dense_samples, 1, 1000, 10)},
+    {CHOICE("solver.grid", refine, refinements, 0, 0)},
+    {INTEGER("solver.starts", starts, 1, AMBULO_MOST_STARTS, 1)},
+    {BORROWED(progress)},
+    {BORROWED(user)},
+};
+TABLE(NULL, options);
 #undef OF

@@ -1,4 +1,5 @@
-/* problem/members.h - the members of a problem's definition: one row of a table says all about one.
+/* problem/members.h - the members of a problem's definition and of the solver's options: one row of
+ * a table says all about one.
  *
  * Loops over the tables set defaults, check ranges, copy and free definitions, take those of older
  * headers, make the hash (definition.h), read problem files (definitions/read_members.h), and name
@@ -9,6 +10,7 @@
 #define AMBULO_PROBLEM_MEMBERS_H
 
 #include "ambulo/problem.h"
+#include "ambulo/solve.h"
 
 /* What a number is, which decides on its unit and on the change that a person can picture. */
 typedef enum ambulo__quantity {
@@ -30,7 +32,8 @@ typedef enum ambulo__quantity {
   AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
   AMBULO__TURNING_STIFF, /* N m/rad: 1, of a spring that has none yet */
   AMBULO__STIFF,         /* N/m: 10 */
-  AMBULO__RATIO          /* any: 1 % of the value */
+  AMBULO__RATIO,         /* any: 1 % of the value */
+  AMBULO__BYTES          /* of memory */
 } ambulo__quantity;
 const char *ambulo__quantity_unit(ambulo__quantity quantity); /* "m", "" */
 
@@ -38,7 +41,7 @@ typedef enum ambulo__member_type {
   AMBULO__NUMBER,       /* double[count] */
   AMBULO__FILE_ANGLE,   /* the same, in files in their unit of angle */
   AMBULO__INTEGER,      /* int[count] */
-  AMBULO__FLAG,         /* int: true, false */
+  AMBULO__FLAG,         /* int: true, false; with words, every second of them is true */
   AMBULO__CHOICE,       /* an enumeration: one of `words` */
   AMBULO__INDEX,        /* int[count]: of something of the model, -1: of nothing */
   AMBULO__TEXT,         /* const char * */
@@ -105,7 +108,7 @@ extern const ambulo__structure ambulo__definition_members, ambulo__clearance_mem
     ambulo__ground_reaction_members, ambulo__collision_members, ambulo__contact_members,
     ambulo__end_value_members, ambulo__tube_members, ambulo__obstacle_members,
     ambulo__reach_members, ambulo__device_members, ambulo__hold_members, ambulo__term_members,
-    ambulo__user_row_members, ambulo__capsule_pair_members;
+    ambulo__user_row_members, ambulo__capsule_pair_members, ambulo__options_members;
 
 /* How many items, or rows of numbers, an array has; `item` is what it is a member of. */
 size_t ambulo__member_length(const ambulo__member *member,

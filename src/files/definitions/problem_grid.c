@@ -111,13 +111,6 @@ void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_
 
 static const double gigabyte = 1073741824.0;
 
-/* on, off, true or false */
-static int read_switch(const ambulo__yaml_node *node, int fallback) {
-  static const char *const words[] = {"off", "on", "false", "true"};
-  int choice = ambulo__yaml_choice(node, words, 4, -1);
-  return choice < 0 ? fallback : choice % 2;
-}
-
 /* 0 in a file: none */
 static double read_limit(const ambulo__yaml_node *node) {
   double limit = ambulo__yaml_number_in(node, 0.0, 1e9, 0.0);
@@ -125,27 +118,10 @@ static double read_limit(const ambulo__yaml_node *node) {
 }
 
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
-  static const char *const algorithms[] = {"auto", "slsqp", "auglag"};
-  ambulo_options *o = &reader->options;
   if (!section) return;
-  int algorithm = ambulo__yaml_choice(ambulo__yaml_get(section, "algorithm"), algorithms, 3, 0);
-  o->algorithm = (ambulo_algorithm)algorithm;
-  o->maximum_evaluations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_evaluations"), 1,
-                                                1000000000, o->maximum_evaluations);
-  o->maximum_iterations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_iterations"), 1,
-                                               1000000000, o->maximum_iterations);
-  o->time_limit = read_limit(ambulo__yaml_get(section, "time_limit"));
-  o->maximum_memory = gigabyte * read_limit(ambulo__yaml_get(section, "maximum_memory"));
-  o->feasibility_tolerance = ambulo__yaml_number_in(
-      ambulo__yaml_get(section, "feasibility_tolerance"), 1e-14, 1.0, o->feasibility_tolerance);
-  o->optimality_tolerance = ambulo__yaml_number_in(
-      ambulo__yaml_get(section, "optimality_tolerance"), 1e-14, 1.0, o->optimality_tolerance);
-  o->continuation = read_switch(ambulo__yaml_get(section, "continuation"), o->continuation);
-  static const char *const refinements[] = {"given", "auto"};
-  o->refine = ambulo__yaml_choice(ambulo__yaml_get(section, "grid"), refinements, 2, o->refine);
-  o->starts =
-      ambulo__yaml_integer(ambulo__yaml_get(section, "starts"), 1, AMBULO_MOST_STARTS, o->starts);
-  o->dense_samples =
-      ambulo__yaml_integer(ambulo__yaml_get(section, "dense_samples"), 1, 1000, o->dense_samples);
+  ambulo__read_members(reader, section, &ambulo__options_members, "solver.", &reader->options);
+  reader->options.time_limit = read_limit(ambulo__yaml_get(section, "time_limit"));
+  reader->options.maximum_memory =
+      gigabyte * read_limit(ambulo__yaml_get(section, "maximum_memory"));
   ambulo__yaml_close(section);
 }

@@ -154,6 +154,8 @@ static void read_row(const ambulo__yaml_node *node, const ambulo__member *m, dou
 /* ------------------------------------------------------------------------ members */
 
 static int read_integer(const ambulo__yaml_node *node, const ambulo__member *m, int value) {
+  if (m->type == AMBULO__FLAG && m->words)
+    return ambulo__yaml_choice(node, m->words, m->word_count, value) % 2;
   if (m->type == AMBULO__FLAG) return ambulo__yaml_boolean(node, value);
   if (m->type == AMBULO__INTEGER)
     return ambulo__yaml_integer(node, (int)m->low, (int)m->high, value);
