@@ -1,23 +1,11 @@
 /* linear/band.c - see band.h. */
 #include "linear/band.h"
 #include "base/arithmetic.h"
-#include "mechanics/kernels.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { FEW_ROWS = 24 }; /* fewer are mapped one by one: walks of 21 coordinates 3 % quicker */
-
-/* by the rule of mechanics/dispatch.c; a set without functions was not compiled in */
-const ambulo__band_kernels *ambulo__band_kernels_select(void) {
-#if defined(__x86_64__)
-  const char *name = ambulo__instruction_set();
-  if (!strcmp(name, "avx512") && ambulo__band_kernels_avx512.factor)
-    return &ambulo__band_kernels_avx512;
-  if (!strcmp(name, "avx2") && ambulo__band_kernels_avx2.factor) return &ambulo__band_kernels_avx2;
-#endif
-  return &ambulo__band_kernels_baseline;
-}
 
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
   size_t padded = (size_t)ambulo__whole_tiles(n), tiles = padded / AMBULO__TILE;
