@@ -128,6 +128,23 @@ static void every_step_may_fail(void **state) {
   assert_in_range(faults, 12, 30);
 }
 
+/* allocations of the writer come after its look at the place: here somebody writes meanwhile */
+static void *resize_and_intrude(void *user, void *pointer, size_t size) {
+  if (size > 0 && access(user, F_OK) != 0) scratch_write(user, "years of work");
+  if (size > 0) return realloc(pointer, size);
+  free(pointer);
+  return NULL;
+}
+
+static void what_appears_in_the_meantime_is_kept(void **state) {
+  char path[SCRATCH_PATH + 256];
+  snprintf(path, sizeof path, "%s", scratch_path(state, "f"));
+  ambulo_allocator intruder = {resize_and_intrude, path};
+  assert_int_equal(ambulo__write_file(path, "new", 3, 0, &intruder, NULL), AMBULO_E_IO);
+  assert_file_equal(path, "years of work");
+  assert_int_equal(entries_in(*state), 1);
+}
+
 #define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_open, scratch_close)
 
 /* The steps under atomic files: names, complete writes, flushing. */
@@ -265,6 +282,7 @@ int main(void) {
       WITH_SCRATCH(a_full_device_is_reported),
       WITH_SCRATCH(a_failed_write_keeps_the_old_file_and_leaves_nothing),
       WITH_SCRATCH(every_step_may_fail),
+      WITH_SCRATCH(what_appears_in_the_meantime_is_kept),
       WITH_SCRATCH(stale_temporaries_do_not_block),
       cmocka_unit_test(siblings_differ_by_process_and_number),
       cmocka_unit_test_setup_teardown(writes_are_complete_or_report_why, scratch_open,

@@ -1,5 +1,9 @@
 /* Result folders appear whole or not at all, and replace only earlier results. */
 #include "formats/atomic_file.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"
@@ -54,6 +58,22 @@ static void an_aborted_folder_leaves_nothing(void **state) {
   ambulo__folder_abort(folder);
   ambulo__folder_abort(NULL);
   assert_int_equal(entries_in(*state), 0);
+}
+
+/* no part of a file stays in a folder that is committed all the same */
+static void a_failed_file_leaves_nothing(void **state) {
+  struct rlimit old, small;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+  small = old;
+  small.rlim_cur = 4;
+  (void)signal(SIGXFSZ, SIG_IGN);
+  ambulo__folder *folder = begin(scratch_path(state, "out"), NULL);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  ambulo_status status = ambulo__folder_write(folder, "motion.csv", "time,q\n", 7, NULL);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+  assert_int_equal(status, AMBULO_E_IO);
+  assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
+  assert_int_equal(entries_in(scratch_path(state, "out")), 0);
 }
 
 static void an_empty_folder_is_taken(void **state) {
@@ -191,6 +211,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       WITH_SCRATCH(a_folder_appears_only_on_commit),
       WITH_SCRATCH(an_aborted_folder_leaves_nothing),
+      WITH_SCRATCH(a_failed_file_leaves_nothing),
       WITH_SCRATCH(an_empty_folder_is_taken),
       WITH_SCRATCH(earlier_results_are_replaced_only_when_asked),
       WITH_SCRATCH(folders_that_are_no_results_are_never_replaced),
