@@ -2,7 +2,7 @@
 #include "people/stride_measures.h"
 
 #include "base/arithmetic.h"
-#include "contact/collision.h"
+#include "contact/row_families.h"
 #include "contact/contacts.h"
 #include "mechanics/pose.h"
 #include "people/stride.h"

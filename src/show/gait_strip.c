@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/arithmetic.h"
-#include "contact/foot.h"
+#include "contact/contacts.h"
 #include "show/gait_surroundings.h"
 #include "show/gait_svg.h"
 #include "show/skeleton.h"

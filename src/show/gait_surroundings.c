@@ -7,10 +7,10 @@
 #include "show/gait_surroundings.h"
 
 #include "base/arithmetic.h"
-#include "contact/collision.h"
-#include "contact/foot.h"
-#include "contact/load_profile.h"
-#include "contact/swing.h"
+#include "contact/row_families.h"
+#include "contact/contacts.h"
+#include "contact/devices.h"
+#include "contact/schedule.h"
 #include "show/svg.h"
 
 #include <math.h>

@@ -22,7 +22,7 @@ typedef struct ambulo__gait_ground {
 } ambulo__gait_ground;
 
 /* Of the contacts and, where the motion repeats, of those before and after it. Risers stand where
- * contact/swing.h has them. Errors: E_MEMORY. */
+ * contact/schedule.h has them. Errors: E_MEMORY. */
 ambulo_status ambulo__gait_ground_create(const ambulo_problem *problem,
                                          const ambulo_allocator *allocator,
                                          ambulo__gait_ground *ground);

@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "base/arithmetic.h"
-#include "contact/collision.h"
-#include "contact/foot.h"
+#include "contact/row_families.h"
 #include "contact/contacts.h"
 #include "show/gait_surroundings.h"
 #include "show/gait_svg.h"

@@ -5,7 +5,7 @@
 #define TESTS_DEVICE_HOLD_FIXTURE_H
 
 #include "contact/device_fixture.h"
-#include "contact/holds.h"
+#include "contact/devices.h"
 
 enum { hold_case_count = 120, most_holds = 3, hold_points = 4 };
 static const char *const hold_point_names[hold_points] = {"a", "b", "c", "d"};

@@ -2,7 +2,7 @@
  * mirrored ends ask of them. The keys of files are those of
  * tests/definitions/test_problem_constraints.c. */
 #include "support/find_capsule.h"
-#include "contact/collision.h"
+#include "contact/row_families.h"
 #include "ambulo/tools/load.h"
 #include "model/neutral_pose.h"
 #include "support/messages.h"

@@ -2,7 +2,7 @@
  * pairs that never meet are not; the mirror image of a pair is where one step stands for both. */
 #include "support/find_capsule.h"
 #include "ambulo/tools/tools.h"
-#include "contact/collision.h"
+#include "contact/row_families.h"
 #include "support/test.h"
 
 #include <string.h>

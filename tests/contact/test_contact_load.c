@@ -1,5 +1,5 @@
 /* How long a foot stays down, and who is down beside it. */
-#include "contact/contact_load.h"
+#include "contact/contacts.h"
 #include "support/patched_walker.h"
 #include "support/toed_body.h"
 #include "support/walker_fixture.h"

@@ -4,6 +4,7 @@
  * first derivative and 9 (K / T)^2 = 144 of the second. */
 #include "ambulo/tools/tools.h"
 #include "contact/row_families.h"
+#include "contact/schedule.h"
 #include "model/model.h"
 #include "support/messages.h"
 #include "support/patched_walker.h"

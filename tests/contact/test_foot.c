@@ -1,6 +1,6 @@
 /* Axes of a contact's surface, and what a foot in the air swings over. World of the walker: x
  * forward, y up, z right. */
-#include "contact/foot.h"
+#include "contact/contacts.h"
 #include "model/model.h"
 #include "model/neutral_pose.h"
 #include "support/walker_fixture.h"

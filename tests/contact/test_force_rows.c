@@ -4,7 +4,7 @@
  * Right foot on its toes, foothold (0, -0.1), leaves at 0.5 s; left foot on its heel, foothold
  * (0.5, 0.1), from before. Heel to toe 0.22 m, mass 72 kg; centre on the toes 0.24 m ahead of the
  * foothold. World: x forward, y up, z right. */
-#include "contact/contact_load.h"
+#include "contact/contacts.h"
 #include "contact/row_families.h"
 #include "support/patched_walker.h"
 #include "support/row_fixture.h"

@@ -1,6 +1,5 @@
 /* Devices that are none: every refusal by name. */
 #include "contact/devices.h"
-#include "contact/holds.h"
 #include "model/model.h"
 #include "support/messages.h"
 #include "support/planar_walker.h"

@@ -1,6 +1,6 @@
 /* Places and slopes along a path against matrices from the world on. */
 #include "contact/hold_fixture.h"
-#include "contact/load_motion.h"
+#include "contact/devices.h"
 #include "device_fixture.h"
 #include "mechanics/pose.h"
 

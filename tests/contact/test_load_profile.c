@@ -1,7 +1,7 @@
 /* Where a foot is in its stride, in motions that repeat and in one that does not. */
 #include "base/lanes.h"
-#include "contact/load_profile.h"
-#include "contact/phases.h"
+#include "contact/devices.h"
+#include "contact/schedule.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
 

@@ -1,5 +1,5 @@
 /* What the law that shares the load is told of patches: slots behind those of the feet, ramps. */
-#include "contact/contact_load.h"
+#include "contact/contacts.h"
 #include "support/patched_walker.h"
 
 static double smooth(double u) {

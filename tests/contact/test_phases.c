@@ -1,5 +1,5 @@
 /* Events, and grids that have a node at each: by hand and from the shipped walk. */
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "ambulo/tools/load.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"

@@ -1,5 +1,5 @@
 /* What is suggested where a force on the ground, its centre or its moment misses its bounds. */
-#include "contact/foot.h"
+#include "contact/contacts.h"
 #include "support/suggest_cases.h"
 
 static const char NARROW[] = "tests/infeasible/support_too_narrow.yaml";

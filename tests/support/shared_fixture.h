@@ -5,7 +5,7 @@
 #define AMBULO_TESTS_SHARED_FIXTURE_H
 
 #include "ambulo/tools/tools.h"
-#include "contact/contact_load.h"
+#include "contact/contacts.h"
 #include "problem/nlp.h"
 #include "support/toed_body.h"
 

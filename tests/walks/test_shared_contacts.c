@@ -3,7 +3,6 @@
 #include "support/contact_index.h"
 #include "mechanics/lagrangian.h"
 #include "contact/contacts.h"
-#include "contact/contact_load.h"
 #include "mechanics/pose.h"
 #include "people/stride_measures.h"
 #include "support/shared_fixture.h"

@@ -7,7 +7,7 @@
  *
  * A C - B^2 > 0. If that is outside the square of s and t, the minimum is on one of its four sides,
  * where one of the two is 0 or 1 and the other follows from its own equation, cut to [0, 1]. */
-#include "contact/capsules.h"
+#include "contact/curved.h"
 
 #include "base/arithmetic.h"
 

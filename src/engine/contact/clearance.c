@@ -7,8 +7,8 @@
  *     |yaw|, |roll| <= turn                                                             rad
  *     heel at most `outward` beside its next foothold, `inward` towards the other foot  m
  *
- * heights above the surface under the swing (contact/foot.h); yaw, roll and track against
- * its axes. On the way to a higher or lower step (contact/swing.h) instead, up
+ * heights above the surface under the swing (contact/contacts.h); yaw, roll and track against
+ * its axes. On the way to a higher or lower step (contact/schedule.h) instead, up
  *
  *     to the first edge      above the foothold it leaves; tip and ball behind the riser    m
  *     over the edges         above the plane over them
@@ -25,9 +25,8 @@
  */
 #include "base/arithmetic.h"
 #include "contact/contacts.h"
-#include "contact/foot.h"
 #include "contact/row_families.h"
-#include "contact/swing.h"
+#include "contact/schedule.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* contact/collision_check.c - capsules that keep clear, obstacles, places to reach: every number.
  */
 #include "base/arithmetic.h"
-#include "contact/collision.h"
+#include "contact/row_families.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
  * in every run: coordinate i takes the radical inverse of the pose's number in the i-th prime
  * (Halton, Numer Math 2:84-90, 1960).
  */
-#include "contact/collision.h"
+#include "contact/row_families.h"
 #include "base/arithmetic.h"
 #include "contact/curved.h"
 #include "mechanics/pose.h"

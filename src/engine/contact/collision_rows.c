@@ -18,7 +18,7 @@
  */
 #include "base/arithmetic.h"
 #include "contact/rows.h"
-#include "contact/collision.h"
+#include "contact/row_families.h"
 
 #include <math.h>
 

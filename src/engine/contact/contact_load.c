@@ -1,8 +1,7 @@
 /* contact/contact_load.c - see stance.h. */
-#include "contact/contact_load.h"
+#include "contact/contacts.h"
 
 #include "base/arithmetic.h"
-#include "contact/contacts.h"
 #include "model/model.h"
 
 #include <math.h>

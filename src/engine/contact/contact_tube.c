@@ -1,8 +1,8 @@
 /* contact/contact_tube.c - contacts that hold within a tolerance ("contact").
  *
  * On a loaded foot, with e the contact tolerance, o the orientation tolerance, r the point that the
- * contact holds and p its place (contact/foot.h), f, l, n the axes of its surface
- * (contact/foot.h), yaw, pitch, roll those of contact/foot.h:
+ * contact holds and p its place (contact/contacts.h), f, l, n the axes of its surface
+ * (contact/contacts.h), yaw, pitch, roll those of contact/contacts.h:
  *
  *     -e <= f.(r - p) <= e,   -e <= l.(r - p) <= e,   -e <= n.(r - p) <= e         m
  *     -o <= yaw, roll <= o      (twice that on the toes)                             rad
@@ -20,7 +20,6 @@
  * Rows along left, yaw and roll are left out for planar feet. At a node where one contact ends and
  * another begins both points are held, and directions within what both allow.
  */
-#include "contact/foot.h"
 #include "contact/contacts.h"
 #include "contact/row_families.h"
 

@@ -1,5 +1,6 @@
-/* contact/contacts.c - see effector.h. */
-#include "contact/contacts.h"
+/* contact/contacts.c - feet and patches, when they are down, and what is in their way in the air.
+ */
+#include "contact/schedule.h"
 
 #include "base/arithmetic.h"
 #include "base/sized.h"
@@ -204,120 +205,173 @@ ambulo__span ambulo__air_span(const ambulo_problem_definition *d, int foot, doub
   return air;
 }
 
-/* a regular walk as a list of contacts.
- *
- * Step s = ..., -1, 0, 1, ... strikes at t_s with the foot that alternates from
- * `first_foot`; its foothold is (start + x_s, +-W / 2), + for the foot that stands
- * further left at q = 0. Steps to odd strikes last Ts and are L long, those to even ones
- * Ts' and L' (as long as the others unless told):
- *
- *     t_s = ceil(s / 2) Ts + floor(s / 2) Ts',   x_s likewise,   stride S = Ts + Ts'
- *
- *     on its heel   from  t_s + heel_strike S   to  t_s + foot_flat S    (forefoot: on its toes)
- *     flat          from  t_s + foot_flat S     to  t_s + heel_off S
- *     on its toes   from  t_s + heel_off S      to  t_s + toe_off S
- *
- * Spans are cut to [0, t_steps]; empty ones are left out, except that a foot which comes
- * down exactly at the end is in contact at that instant.
- */
+/* ---------------------------------------------------------------- in the air */
 
-enum { MOST_STEPS = 1000 };
-
-static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
-  double lengths[] = {gait->step_length, gait->step_width, gait->start};
-  for (int i = 0; i < 3; i++) {
-    if (!isfinite(lengths[i])) return 0;
-  }
-  return model->foot_count == 2 && gait->first_foot >= 0 && gait->first_foot < 2 &&
-         (gait->forefoot == 0 || gait->forefoot == 1) && gait->steps >= 1 &&
-         gait->steps <= MOST_STEPS && gait->step_time > 0.0 && isfinite(gait->step_time) &&
-         !isinf(gait->other_step_length) &&
-         (isnan(gait->other_step_time) ||
-          (gait->other_step_time > 0.0 && isfinite(gait->other_step_time))) &&
-         gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
-         gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
-         gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
-}
-
-/* sum of `odd` over the odd and `even` over the even steps up to step s; negative before step 0 */
-static double up_to_step(int s, double odd, double even) {
-  int evens = s >= 0 ? s / 2 : -((1 - s) / 2);
-  return (double)(s - evens) * odd + (double)evens * even;
-}
-
-double ambulo__gait_strike(const ambulo_gait *gait, int step) {
-  double other = isnan(gait->other_step_time) ? gait->step_time : gait->other_step_time;
-  return up_to_step(step, gait->step_time, other);
-}
-
-double ambulo__gait_place(const ambulo_gait *gait, int step) {
-  double other = isnan(gait->other_step_length) ? gait->step_length : gait->other_step_length;
-  return up_to_step(step, gait->step_length, other);
-}
-
-/* the foot that stands further left at q = 0 */
-static int left_foot(const ambulo_model *model) {
-  double along[2] = {0.0, 0.0};
-  for (int foot = 0; foot < 2; foot++) {
-    double r[3];
-    ambulo__neutral_point(model, model->feet[foot].heel_center, r);
-    for (int axis = 0; axis < 3; axis++) along[foot] += model->left[axis] * r[axis];
-  }
-  return along[1] > along[0];
-}
-
-typedef struct writer {
-  char *contacts;
-  size_t size; /* of one, as the caller's header has it */
-  int capacity, count;
-  double duration;
-} writer;
-
-static void write_span(writer *w, ambulo_contact contact) {
-  int lands_at_end = fabs(contact.from - w->duration) <= AMBULO__INSTANT;
-  if (contact.to <= AMBULO__INSTANT || contact.from > w->duration + AMBULO__INSTANT) return;
-  contact.from = fmax(contact.from, 0.0);
-  contact.to = fmin(contact.to, w->duration);
-  if (lands_at_end && contact.to > w->duration - AMBULO__INSTANT) {
-    contact.from = contact.to = w->duration;
-  } else if (contact.to - contact.from <= AMBULO__INSTANT) {
-    return;
-  }
-  if (w->count < w->capacity) memcpy(w->contacts + (size_t)w->count * w->size, &contact, w->size);
-  w->count++;
-}
-
-ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *gait,
-                                 ambulo_contact *contacts, int capacity, int *count) {
-  ambulo_gait own;
-  if (!model || !gait || !count || (!contacts && capacity > 0)) return AMBULO_E_ARGUMENT;
-  if (!AMBULO__OWN(ambulo_gait, &own, gait) ||
-      !ambulo__sized_item(own.contact_size, sizeof *contacts))
-    return AMBULO_E_ARGUMENT;
-  gait = &own;
-  if (!gait_is_legal(model, gait)) return AMBULO_E_ARGUMENT;
-  writer w = {(char *)contacts, own.contact_size, capacity, 0,
-              ambulo__gait_strike(gait, gait->steps)};
-  double stride = ambulo__gait_strike(gait, 2);
-  const double fraction[] = {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off};
-  int left = left_foot(model);
-  ambulo_contact_mode landing = gait->forefoot ? AMBULO_CONTACT_TOE : AMBULO_CONTACT_HEEL;
-  /* a foot is down for less than one stride and strikes at most half a stride early */
-  for (int step = -3; step <= gait->steps + 1; step++) {
-    int foot = step % 2 == 0 ? gait->first_foot : 1 - gait->first_foot;
-    double strike = ambulo__gait_strike(gait, step);
-    double side = foot == left ? 0.5 : -0.5;
-    for (int mode = AMBULO_CONTACT_HEEL; mode <= AMBULO_CONTACT_TOE; mode++) {
-      ambulo_contact contact = {
-          .foot = foot,
-          .mode = mode == AMBULO_CONTACT_HEEL ? landing : (ambulo_contact_mode)mode,
-          .from = strike + fraction[mode - AMBULO_CONTACT_HEEL] * stride,
-          .to = strike + fraction[mode - AMBULO_CONTACT_HEEL + 1] * stride,
-          .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width},
-          .patch = -1};
-      if (contact.to - contact.from > AMBULO__INSTANT) write_span(&w, contact);
+int ambulo__swing_contacts(const ambulo_problem_definition *d, int foot, double time,
+                           ambulo_contact *from, ambulo_contact *to) {
+  int last = ambulo__image_periods(d), has_from = 0, has_to = 0;
+  for (int i = 0; i < d->contact_count; i++) {
+    for (int period = -last; period <= last; period++) {
+      ambulo_contact image = ambulo__contact_image(d, i, period);
+      if (image.foot != foot) continue;
+      if (image.to <= time + AMBULO__INSTANT && (!has_from || image.to > from->to)) {
+        *from = image;
+        has_from = 1;
+      } else if (image.from >= time - AMBULO__INSTANT && (!has_to || image.from < to->from)) {
+        *to = image;
+        has_to = 1;
+      }
     }
   }
-  *count = w.count;
-  return w.count > capacity ? AMBULO_E_LIMIT : AMBULO_OK;
+  if (!has_from && has_to) *from = *to;
+  if (!has_to && has_from) *to = *from;
+  return has_from || has_to;
+}
+
+int ambulo__swing_source(const ambulo_problem_definition *d, const ambulo_contact *image,
+                         int *period) {
+  int last = ambulo__image_periods(d);
+  for (int i = 0; i < d->contact_count; i++) {
+    for (*period = -last; *period <= last; (*period)++) {
+      ambulo__span span = ambulo__image_span(d, i, *period);
+      if (ambulo__image_effector(d, i, *period) == image->foot && span.from == image->from &&
+          span.to == image->to)
+        return i;
+    }
+  }
+  return -1;
+}
+
+ambulo__contact_frame ambulo__surface_below(const ambulo_problem_definition *d, int foot,
+                                            double time) {
+  ambulo_contact from = {.foot = foot}, to = from;
+  const ambulo_contact *contact = ambulo__contact_of(d, foot, time);
+  if (contact) return ambulo__contact_frame_of(d, contact);
+  (void)ambulo__swing_contacts(d, foot, time, &from, &to);
+  return ambulo__contact_frame_of(d, to.place[2] < from.place[2] ? &to : &from);
+}
+
+/*
+ * With e the horizontal unit vector from one foothold of the foot to its next one, footholds at
+ * x = e . p and heights z, L the length of the flat foot from heel to tip, and the step of the
+ * other foot, which stands, in between where its height is:
+ *
+ *     edge between two heights    x = (max x of those behind + L + min x of those ahead) / 2
+ *                                 z = the higher one                                       m
+ *     plane over the edges        u = unit(n - s e),  s = (z_to - z_from) / (x_to - x_from)
+ *                                 u . r = max over the edges of (n - s e) . r / |n - s e|   m
+ */
+
+/* of the way up: shares of the time in the air at which its foot comes over the first edge and past
+ * the last one; a foot that goes down is there at 1 less these */
+static const double first_edge = 0.38, last_edge = 0.56;
+
+enum { MOST = 3 }; /* footholds on the way: those of the foot, that of the other one */
+
+static const double shortest_way =
+    0.05; /* m forward, below which a foot goes up or down on the spot */
+static const double same_height = 1e-3; /* m */
+static const double same_place = 1e-9;  /* m: rounding */
+
+typedef struct way {
+  int count;
+  double x[MOST], z[MOST];
+} way;
+
+static int is_horizontal(const ambulo_contact *c) {
+  return c->normal[0] == 0.0 && c->normal[1] == 0.0;
+}
+
+/* of two along forward and left */
+static double along(const double direction[2], const double place[3]) {
+  return direction[0] * place[0] + direction[1] * place[1];
+}
+
+static const ambulo_contact *add_other_foot(const ambulo_problem_definition *d, int foot,
+                                            double time, const double direction[2], way *w) {
+  const ambulo_contact *c = d->model->feet[foot].mirror >= 0 && d->model->feet[foot].mirror != foot
+                                ? ambulo__contact_of(d, d->model->feet[foot].mirror, time)
+                                : NULL;
+  double low = fmin(w->z[0], w->z[1]), high = fmax(w->z[0], w->z[1]);
+  if (!c || !is_horizontal(c) || c->place[2] < low - same_height ||
+      c->place[2] > high + same_height)
+    return NULL;
+  w->x[w->count] = along(direction, c->place);
+  w->z[w->count++] = c->place[2];
+  return c;
+}
+
+/* foothold i is the nearest one so far, or as near as that */
+static void approach(ambulo__step_edge *edge, double nearness, int i, double *nearest, int *which) {
+  edge->unsure |= fabs(nearness - *nearest) <= same_place;
+  if (!(nearness > *nearest)) return;
+  *nearest = nearness;
+  *which = i;
+}
+
+/* the edge between the footholds up to `low` and those from `high` on */
+static ambulo__step_edge edge_between(const way *w, double low, double high, double length) {
+  int climbs = w->z[1] > w->z[0];
+  double behind = -INFINITY, beyond = -INFINITY;
+  ambulo__step_edge edge = {.z = high};
+  for (int i = 0; i < w->count; i++) {
+    int is_low = w->z[i] <= low + same_height, is_high = w->z[i] >= high - same_height;
+    if (climbs ? is_low : is_high) approach(&edge, w->x[i], i, &behind, &edge.behind);
+    if (climbs ? is_high : is_low) approach(&edge, -w->x[i], i, &beyond, &edge.beyond);
+  }
+  while (w->z[edge.on] != high) edge.on++;
+  edge.x = ambulo__riser_between(behind, length, -beyond);
+  return edge;
+}
+
+static void set_plane(const ambulo_model *m, double slope, ambulo__step_edges *edges) {
+  double size = sqrt(1.0 + slope * slope);
+  for (int i = 0; i < 3; i++) edges->above[i] = (m->up[i] - slope * edges->ahead[i]) / size;
+}
+
+static void add_edge(ambulo__step_edge edge, double ground, double slope,
+                     ambulo__step_edges *edges) {
+  edge.z += ground;
+  double height = (edge.z - slope * edge.x) / sqrt(1.0 + slope * slope);
+  edges->even = edges->count > 0 && fabs(height - edges->height) <= same_place;
+  if (edges->count == 0 || height > edges->height) {
+    edges->height = height;
+    edges->highest = edges->count;
+  }
+  edges->edge[edges->count++] = edge;
+}
+
+double ambulo__step_edge_time(ambulo__span air, const ambulo_contact *from,
+                              const ambulo_contact *to, int last) {
+  int climbs = to->place[2] > from->place[2];
+  double share = climbs ? (last ? last_edge : first_edge) : 1.0 - (last ? first_edge : last_edge);
+  return air.from + share * (air.to - air.from);
+}
+
+ambulo__step_edges ambulo__step_edges_between(const ambulo_problem_definition *d, int foot,
+                                              double time, const ambulo_contact *from,
+                                              const ambulo_contact *to) {
+  ambulo__step_edges edges = {.count = 0};
+  double step[2] = {to->place[0] - from->place[0], to->place[1] - from->place[1]};
+  double run = hypot(step[0], step[1]), rise = to->place[2] - from->place[2];
+  if (run < shortest_way || fabs(rise) <= same_height || !is_horizontal(from) || !is_horizontal(to))
+    return edges;
+  double direction[2] = {step[0] / run, step[1] / run}, slope = rise / run;
+  double length = ambulo__foot_reach(d->model, foot);
+  way w = {.count = 2,
+           .x = {along(direction, from->place), along(direction, to->place)},
+           .z = {from->place[2], to->place[2]}};
+  edges.other = add_other_foot(d, foot, time, direction, &w);
+  double low = fmin(w.z[0], w.z[1]), high = fmax(w.z[0], w.z[1]), middle = w.z[w.count - 1];
+  for (int i = 0; i < 3; i++)
+    edges.ahead[i] = direction[0] * d->model->forward[i] + direction[1] * d->model->left[i];
+  set_plane(d->model, slope, &edges);
+  if (w.count == MOST && middle > low + same_height && middle < high - same_height) {
+    add_edge(edge_between(&w, low, middle, length), d->ground_height, slope, &edges);
+    add_edge(edge_between(&w, middle, high, length), d->ground_height, slope, &edges);
+  } else {
+    add_edge(edge_between(&w, low, high, length), d->ground_height, slope, &edges);
+  }
+  edges.riser = edges.edge[0].x;
+  return edges;
 }

@@ -1,10 +1,13 @@
-/* contact/contacts.h - what of a body touches its surroundings: feet and patches, in one numbering.
+/* contact/contacts.h - feet and patches, their surfaces, when they are down and what they weigh.
  *
- * Effector e < foot_count is foot e, those behind are the patches in the model's order. */
+ * What touches is a foot or a patch, an *effector*; contacts of a motion that repeats go on beyond
+ * its ends. */
 #ifndef AMBULO_CONTACT_CONTACTS_H
 #define AMBULO_CONTACT_CONTACTS_H
 
 #include "ambulo/problem.h"
+#include "base/alloc.h"
+#include "model/model.h"
 
 int ambulo__effector_count(const ambulo_model *model);
 /* Of a contact of a foot or a patch that the model has. */
@@ -70,5 +73,170 @@ const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *defini
 /* Just before `time`. */
 const ambulo_contact *ambulo__contact_before(const ambulo_problem_definition *definition,
                                              int effector, double time);
+
+/* where a contact is in the world, and the axes of its surface.
+ *
+ * With the model's forward f, left l and up n, the ground's height h, and of the contact the place
+ * p, the surface normal u (zero: up) and the heading psi,
+ *
+ *     origin = p_f f + p_l l + (h + p_n) n
+ *     left    = unit(u x (cos psi f + sin psi l)),   forward = left x u
+ *
+ * in world axes. On level ground, heading 0, they are f, l and n themselves. Where u is within 25
+ * degrees of the heading or its opposite (the wall that a hand pushes) n takes the heading's place:
+ * forward is up the wall. */
+
+typedef struct ambulo__contact_frame {
+  double origin[3];
+  double forward[3], left[3], up[3];
+} ambulo__contact_frame;
+
+ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *definition,
+                                               const ambulo_contact *contact);
+/* The surface under a foot in the air, `share` (0 to 1) of the way from one contact to the next:
+ * places, headings and normals between theirs. A foot that goes up rises in the first half of the
+ * way, one that goes down sinks in the second, so that it passes the edge of a step. */
+ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definition *definition,
+                                                    const ambulo_contact *from,
+                                                    const ambulo_contact *to, double share);
+/* The contact that such a surface would be of. */
+ambulo_contact ambulo__contact_between(const ambulo_contact *from, const ambulo_contact *to,
+                                       double share);
+/* direction . (point - origin) */
+double ambulo__contact_frame_along(const ambulo__contact_frame *frame, const double direction[3],
+                                   const double point[3]);
+/* Under a foot: 1 for a normal of zeros, and up to 60 degrees from up. */
+int ambulo__contact_normal_is_legal(const double normal[3]);
+/* 1 where the contact's surface is the level ground plane and its heading straight ahead. */
+int ambulo__contact_is_level(const ambulo_contact *contact);
+/* 1 if both hold the foot to the same foothold. */
+int ambulo__contacts_same_place(const ambulo_contact *one, const ambulo_contact *other);
+/* 1 if all contacts of feet are: what stands on one zero-moment point needs that. */
+int ambulo__contacts_are_level(const ambulo_problem_definition *definition);
+
+/* the flat foot on the ground.
+ *
+ * Taken from the model's points at q = 0, relative to the heel centre, in the ground
+ * plane, and turned so that the toe centre lies straight ahead: m, [along forward,
+ * along left]. */
+
+enum { AMBULO__FOOT_CORNERS = 4 };
+
+typedef struct ambulo__foot_outline {
+  double length;                         /* heel centre to toe centre, m */
+  int moves_sideways;                    /* 0: a planar foot, which has no lateral rows */
+  int count;                             /* corners: 2 (planar foot) or 4 */
+  int point[AMBULO__FOOT_CORNERS];       /* the model's point of each corner */
+  int is_heel[AMBULO__FOOT_CORNERS];     /* heel corner, else toe corner */
+  double place[AMBULO__FOOT_CORNERS][2]; /* relative to the heel centre, m */
+  int has_arcs;
+  int arc[2];                     /* the model's points: centres of the arcs of heel and forefoot */
+  double arc_ahead[2], radius[2]; /* along forward from the heel centre, above it: m */
+} ambulo__foot_outline;
+
+ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot);
+/* Of all feet, [foot_count]; NULL without memory. Free with ambulo__free. */
+ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
+                                            const ambulo_allocator *allocator);
+
+/* Heel centre to the most forward point of the flat foot, its tip if it has one, m. */
+double ambulo__foot_reach(const ambulo_model *model, int foot);
+
+/* Whether a corner touches the ground in a mode. */
+int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel);
+
+/* The point that a contact holds in place, and where: the heel centre on the foothold,
+ * or (in toe contact) the toe centre where the flat foot has it, the middle of a patch on its
+ * place; world axes, m. `outline`: of the contact's foot; not read for a patch. Returns the point.
+ */
+int ambulo__contact_point(const ambulo_problem_definition *definition,
+                          const ambulo__foot_outline *outline, const ambulo_contact *contact,
+                          double place[3]);
+
+/* Distance of heel and toe centre at q = 0, m. */
+double ambulo__foot_length(const ambulo_model *model, int foot);
+
+/* how long a foot or a patch is down without interruption, and beside
+ * which others.
+ */
+
+/* Times, s, may lie outside [0, T] in a motion that repeats. */
+typedef struct ambulo__stance {
+  double from, to; /* infinite where it never came down or leaves: in a motion that repeats
+                      if it is down all the time, in another where that begins or ends with it */
+  double leaves;   /* those of other feet and patches that hold as it begins: when the first of them
+                      ends, at the latest half-way; -infinity: none, or it has no beginning */
+  double comes;    /* those that hold as it ends: when the last of them began, at the earliest
+                      half-way; infinity: none, or it has no end */
+  int leaves_half_way, comes_half_way; /* 1: that is half-way */
+  ambulo__span phase;                  /* the part of it in the contact's mode */
+  int before, after;                   /* modes of the parts before and after; -1: none */
+} ambulo__stance;
+
+/* Of the foot or patch of one of the definition's contacts, at that contact. */
+ambulo__stance ambulo__stance_of(const ambulo_problem_definition *definition,
+                                 const ambulo_contact *contact);
+/* How long one of `modes` holds the foot (a patch: its only one) without interruption, around a
+ * contact in one of them; infinite as above. */
+ambulo__span ambulo__stance_in(const ambulo_problem_definition *definition,
+                               const ambulo_contact *contact, int modes);
+
+/* what the law that shares the load among contacts is told of them.
+ *
+ * A slot is a link that contacts act on: of each foot the link of its heel and, behind a joint of
+ * the toes, that of its toe centre; of each patch in contact its own. At most one contact of a slot
+ * is down at a time. */
+
+enum { AMBULO__MOST_SLOTS = 6 };
+
+/* How far ahead of the ball the centre under the toes is, m of a body of 1.75 m. */
+#define AMBULO__BEYOND_BALL 0.02
+/* Of the time that a foot is flat: the least over which that centre comes there, and goes on. */
+#define AMBULO__SHORTEST_GLIDE (1.0 / 16.0)
+
+typedef struct ambulo__slots {
+  int count;
+  int effector[AMBULO__MOST_SLOTS]; /* whose (contact/contacts.h); slot f < foot_count is foot f's
+                                     */
+  int link[AMBULO__MOST_SLOTS];
+  int part[AMBULO__MOST_SLOTS]; /* an ambulo__slot_part */
+} ambulo__slots;
+
+typedef enum ambulo__slot_part {
+  AMBULO__WHOLE_FOOT, /* no joint between heel and toes */
+  AMBULO__REAR_FOOT,
+  AMBULO__FORE_FOOT,
+  AMBULO__WHOLE_PATCH
+} ambulo__slot_part;
+
+/* Of all feet, and of the patches that are in contact at some time. `count` may exceed
+ * AMBULO__MOST_SLOTS, of which the arrays then have the first. */
+ambulo__slots ambulo__slots_of(const ambulo_problem_definition *definition);
+
+/* What messages call it: the foot or patch, of two parts the points of its heel and toe centre. */
+const char *ambulo__slot_name(const ambulo_model *model, const ambulo__slots *slots, int slot);
+
+/* A slot at a time. */
+typedef struct ambulo__contact_load {
+  int loaded;       /* 0: all else is zero */
+  double weight;    /* w, 0 to 1 */
+  double center[3]; /* p: world, m */
+  double box[2],
+      side;      /* where pressure may be: from behind to ahead of the centre, to either side, m */
+  int cut[2];    /* 1: that end of it is at the joint of the toes */
+  double rolled; /* how much of heel_roll is in it */
+  double since, until; /* it came down, it leaves: s from now on either side; may be infinite */
+  int arc;             /* point of the arc on which the foot rolls, or -1 */
+  double most;         /* normal force, body weights; may be infinite */
+  double most_by_time; /* its derivative by ln T, all times being shares of the duration T */
+  ambulo__contact_frame frame; /* of the contact */
+} ambulo__contact_load;
+
+/* `contact` NULL: that which is active at `time`; else that contact, at one of its ends.
+ * `outlines`: of the model's feet. */
+ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *definition,
+                                             const ambulo__foot_outline *outlines,
+                                             const ambulo__slots *slots, int slot,
+                                             const ambulo_contact *contact, double time);
 
 #endif

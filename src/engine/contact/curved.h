@@ -2,12 +2,130 @@
 #ifndef AMBULO_CONTACT_CURVED_H
 #define AMBULO_CONTACT_CURVED_H
 
-#include "contact/capsules.h"
+/* how near two segments come to each other, as a smooth function of their
+ * ends.
+ *
+ * Segments from a to b and from c to d, points of them x(s) = a + s (b - a), y(t) = c + t (d - c),
+ * 0 <= s, t <= 1, and weights w, v > 0 (m^2):
+ *
+ *     V = min over s, t of  |x(s) - y(t)|^2 + w (s - 1/2)^2 + v (t - 1/2)^2              m^2
+ *
+ * Without weights V is the squared distance, but where segments are parallel its nearest points are
+ * not unique and jump from one end to the other as the segments turn: its slopes jump too. With
+ * them the function of s and t is strictly convex. Its minimum is unique and moves continuously
+ * with the ends, so that V has continuous slopes everywhere, crossing and parallel segments
+ * included; as at the minimum a change of s and t counts nowhere (envelope theorem), with
+ * e = x(s) - y(t)
+ *
+ *     dV/da = 2 (1 - s) e,  dV/db = 2 s e,  dV/dc = -2 (1 - t) e,  dV/dd = -2 t e
+ *
+ * And it is next to the squared distance d^2:
+ *
+ *     d^2 <= V,   V - (w + v) / 4 <= d^2
+ */
+
+typedef struct ambulo__segment_nearest {
+  double at[2]; /* s, t */
+  double e[3];  /* x(s) - y(t), m */
+  double value; /* V, m^2 */
+} ambulo__segment_nearest;
+
+/* one[0], one[1]: a, b; other: c, d; weight: w, v. They are only read. */
+ambulo__segment_nearest ambulo__segments_nearest(double one[2][3], double other[2][3],
+                                                 const double weight[2]);
+
+/* how far a segment is outside a box, or inside, as a function of its ends.
+ *
+ * In the box's own axes, origin in its middle, half sizes h: the segment x(s) = a + s (b - a),
+ * 0 <= s <= 1, and a weight w > 0 (m^2) as in contact/curved.h. Outside
+ *
+ *     o(x)_k = x_k - h_k where x_k > h_k,  x_k + h_k where x_k < -h_k,  else 0
+ *     V = min over s of  |o(x(s))|^2 + w (s - 1/2)^2                                     m^2
+ *
+ * is convex, with a unique minimum and continuous slopes, dV/da = 2 (1 - s) o, dV/db = 2 s o;
+ * d^2 <= V and V - w / 4 <= d^2 of the distance d. Inside V tells no direction: how deep the
+ * segment is in the box is
+ *
+ *     P = the shortest way that it can be moved to be outside, 0 if it is              m
+ *
+ * along a normal of a face of the box or one of segment and edge, u x e_k: of these six directions
+ * n (separating axes of convex bodies) that with the least overlap. P is continuous, 0 where the
+ * segment touches, and its slopes are those of n; where two ways out are equally long they jump. */
+
+typedef struct ambulo__box_nearest {
+  double at;    /* s */
+  double o[3];  /* o(x(s)), m */
+  double value; /* V, m^2 */
+} ambulo__box_nearest;
+
+/* ends[0], ends[1]: a, b in the box's axes, m; half: h >= 0; weight: w. */
+ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[3], double weight);
+/* P, m. The way out: a segment's end i that moves by dx makes it shorter by share[i] * (out . dx);
+ * set where P > 0. */
+double ambulo__box_depth(double ends[2][3], const double half[3], double out[3], double share[2]);
+
+/* capsules keep clear of one another and of what stands around: rows that are not
+ * linear.
+ *
+ * A capsule of a link is all that is within its radius of a segment whose ends are points of the
+ * model (model/model_query.h). It keeps D = its radius + the other's radius + a margin away from
+ * another capsule's segment, which moves or stands still, or from a box. With V and, of a box, P of
+ * contact/curved.h, contact/curved.h,
+ *
+ *     c = sqrt(V) - sqrt(D^2 + W) - P >= 0      m
+ *     w_i = eps (length_i^2 + radius_i^2),  W = sum of w_i / 4,  eps = 1e-3
+ *
+ * w_i of a capsule that stands still is that of the link's, so that it goes with no place.
+ *
+ * As V - W is at most the squared distance, c >= 0 keeps D indeed; at most W / 2 D more, .5 mm of
+ * two shanks. c is about the distance less D, in m. Its slopes are those of V by 2 sqrt(V), and of
+ * P: they go on without a jump but where segments cross (V = 0: there they are taken as 0), and
+ * inside a box where two ways out are equally long.
+ *
+ *     dc/dD = -D / sqrt(D^2 + W)
+ */
+
+enum { AMBULO__SOLID_CHANNELS = 12 };
+
+typedef enum ambulo__solid_kind {
+  AMBULO__SOLID_MOVING,  /* a capsule of another link */
+  AMBULO__SOLID_CAPSULE, /* fixed in the world */
+  AMBULO__SOLID_BOX      /* fixed in the world */
+} ambulo__solid_kind;
+
+typedef struct ambulo__solid {
+  ambulo__solid_kind kind;
+  int one, other;    /* first channels of the capsules' ends, 6 each; other: of one that moves */
+  int about;         /* index of the obstacle; -1: a capsule that moves */
+  double radius;     /* of both together, m */
+  double distance;   /* D, m */
+  double weight[2];  /* w_i, m^2; [1] of a box: 0 */
+  double ends[2][3]; /* of a fixed capsule, world, m */
+  double center[3], axes[3][3], half[3]; /* of a box: world, m; rows of axes are its directions */
+} ambulo__solid;
+
+/* w_i of a capsule of that length and radius, m^2. */
+double ambulo__solid_weight(double length, double radius);
+/* W. */
+double ambulo__solid_excess(const ambulo__solid *solid);
+
+/* The row's value at a node from its channels, channel k at y[k * stride]. Its slopes are added to
+ * slope [channels] unless NULL. */
+double ambulo__solid_value(const ambulo__solid *solid, const double *y, int stride, double *slope);
+/* The channels on which it stands: returns how many of channel[AMBULO__SOLID_CHANNELS]. */
+int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID_CHANNELS]);
+/* What air there is between the two, margin left out, without weights, m; negative: so far is one
+ * inside the other. */
+double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride);
+/* Slopes of the value by the obstacle's place, world: of a box by_place[0] by its middle, of a
+ * capsule by both its ends; the rest, and all of what moves, 0. */
+void ambulo__solid_by_place(const ambulo__solid *solid, const double *y, int stride,
+                            double by_place[2][3]);
 
 /* heel and forefoot as arcs that roll on a surface: rows that are not linear.
  *
  * An arc of radius r has its centre C on the foot's link, r above the sole. With the axes f, l, n
- * of the surface (contact/foot.h), heel and toe centre h, t a length L apart, and the
+ * of the surface (contact/contacts.h), heel and toe centre h, t a length L apart, and the
  * foot's pitch above the surface theta (toes up),
  *
  *     theta = asin(n . (t - h) / L)

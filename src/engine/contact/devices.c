@@ -12,7 +12,6 @@
 #include "contact/devices.h"
 
 #include "base/arithmetic.h"
-#include "contact/load_motion.h"
 
 #include <math.h>
 #include <string.h>

@@ -14,9 +14,8 @@
 #include "ambulo/mechanics.h"
 #include "base/arithmetic.h"
 #include "contact/contacts.h"
-#include "contact/foot.h"
 #include "contact/row_families.h"
-#include "contact/swing.h"
+#include "contact/schedule.h"
 #include "mechanics/lagrangian.h"
 #include "model/neutral_pose.h"
 

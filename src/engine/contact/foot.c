@@ -5,7 +5,7 @@
  *     p_f, p_l, psi, u   x = (1 - S(s)) x_from + S(s) x_to
  *     p_n                the same with s' = min(1, 2 s) up, max(0, 2 s - 1) down
  */
-#include "contact/foot.h"
+#include "contact/row_families.h"
 
 #include "base/arithmetic.h"
 #include "model/model.h"

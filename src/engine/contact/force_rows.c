@@ -20,7 +20,6 @@
 #include "contact/row_families.h"
 
 #include "base/arithmetic.h"
-#include "contact/contact_load.h"
 #include "contact/contacts.h"
 #include "contact/rows.h"
 #include "model/neutral_pose.h"

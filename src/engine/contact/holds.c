@@ -3,10 +3,9 @@
  * Kept of a hold: a header with the window, F, G, mu, P_d e / s and the forces and moments at the
  * hands, then the motion of each hand.
  */
-#include "contact/holds.h"
+#include "contact/devices.h"
 
 #include "base/arithmetic.h"
-#include "contact/load_motion.h"
 #include "model/model.h"
 
 #include <math.h>

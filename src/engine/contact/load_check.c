@@ -1,9 +1,6 @@
 /* contact/load_check.c - what is wrong with devices, by name. */
 #include "base/arithmetic.h"
 #include "contact/devices.h"
-#include "contact/holds.h"
-#include "contact/load_motion.h"
-#include "contact/load_profile.h"
 #include "model/model.h"
 
 #include <math.h>

@@ -1,9 +1,8 @@
 /* contact/load_motion.c - see path.h. */
-#include "contact/load_motion.h"
+#include "contact/devices.h"
 
 #include "base/lanes.h"
 #include "base/arithmetic.h"
-#include "contact/devices.h"
 
 #include <math.h>
 #include <string.h>

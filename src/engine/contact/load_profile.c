@@ -2,7 +2,7 @@
  *
  *     share = (t - b) / (b' - b),   b, b' the beginnings of the stances around t
  */
-#include "contact/load_profile.h"
+#include "contact/devices.h"
 
 #include "base/arithmetic.h"
 #include "base/lanes.h"
@@ -94,7 +94,7 @@ int ambulo__hold_events(const ambulo_hold *hold, double duration, double time[4]
 }
 
 /*
- * With the share s of the stride, b and b' the strikes around t (contact/load_profile.h),
+ * With the share s of the stride, b and b' the strikes around t (contact/devices.h),
  *
  *     factor = w(s) f,   w = S(v / r) S((l - v) / r),   v = s - from and l = to - from, modulo 1
  *     dw/dt = w' / (b' - b),   dw/db = -w' (1 - s) / (b' - b),   dw/db' = -w' s / (b' - b)

@@ -8,11 +8,10 @@
  * after the front one has come to be flat would give two knots .1 ms apart: with them six of twenty
  * walks between 1.87 and 1.90 m/s found no solution.
  */
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "base/arithmetic.h"
 #include "contact/contacts.h"
-#include "contact/load_profile.h"
-#include "contact/swing.h"
+#include "contact/devices.h"
 
 #include "model/model.h"
 

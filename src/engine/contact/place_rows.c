@@ -3,7 +3,7 @@
  *     height = n . (r - p)  = 0 (corner in contact)  or >= 0 (otherwise),  m
  *
  * at every node, with p and n the place and normal of the foot's contact, of a foot in the air of
- * the lower one of the two between which it swings (contact/foot.h: what is between them
+ * the lower one of the two between which it swings (contact/contacts.h: what is between them
  * its clearance has to pass). A loaded foot that is held within a tolerance has none
  * (contact/contact_tube.c).
  * The four corners of a flat spatial sole are coplanar, so one of its
@@ -12,9 +12,8 @@
 #include "contact/row_families.h"
 
 #include "contact/contacts.h"
-#include "contact/foot.h"
 #include "contact/rows.h"
-#include "contact/swing.h"
+#include "contact/schedule.h"
 #include "model/neutral_pose.h"
 
 static void height_row(const ambulo__gait_context *context, int node, int point,
@@ -77,9 +76,9 @@ void ambulo__ground_rows(const ambulo__gait_context *context, ambulo__row_table 
  *
  *     f . (r - place) = 0,   l . (r - place) = 0,   m
  *
- * of the point that the contact holds (contact/foot.h); a flat foot also keeps its
+ * of the point that the contact holds (contact/contacts.h); a flat foot also keeps its
  * toe centre straight ahead, l . (r_toe - place) = 0: the heading. f and l are the axes of the
- * contact's surface (contact/foot.h). Rows along left are
+ * contact's surface (contact/contacts.h). Rows along left are
  * left out where no coordinate can move the point sideways.
  */
 
@@ -152,7 +151,7 @@ void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_t
 /* patches that are held in place ("contact").
  *
  * With r the middle of a patch in contact, p its place, f, l, n the axes of its surface
- * (contact/foot.h) and e the contact tolerance:
+ * (contact/contacts.h) and e the contact tolerance:
  *
  *     -e <= f.(r - p) <= e,   -e <= n.(r - p) <= e,   -e <= l.(r - p) <= e         m
  *

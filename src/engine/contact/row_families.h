@@ -9,11 +9,6 @@
 #include "contact/contacts.h"
 #include "contact/rows.h"
 
-/* When step `step` of a regular walk strikes (s), and how far its foothold is from that of step 0
- * (m). */
-double ambulo__gait_strike(const ambulo_gait *gait, int step);
-double ambulo__gait_place(const ambulo_gait *gait, int step);
-
 /* Checks contacts (known feet, from < to, no overlap on one foot, inside [0, T]) and
  * fills active[nodes][feet]. Every node needs support when penetration, strike or ZMP
  * rows are asked for. Footholds further apart than the legs can span are refused.
@@ -214,5 +209,78 @@ void ambulo__sharing_rows(const ambulo__gait_context *context, ambulo__row_table
 
 /* "contact" of each patch while it is in contact; m. */
 void ambulo__patch_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+
+/* capsules that keep clear: which, of what, and their rows. */
+
+/* What a definition's collision comes to. Arrays are freed by ambulo__pairs_free. */
+typedef struct ambulo__pairs {
+  ambulo_capsule_pair *kept; /* [kept_count], one < other */
+  int kept_count;
+  ambulo_capsule_pair *left; /* [left_count] they overlap in the rest pose (automatic) */
+  int left_count;
+  int too_far; /* too far apart to meet (automatic) */
+} ambulo__pairs;
+
+/* E_MEMORY. */
+ambulo_status ambulo__pairs_create(const ambulo_problem_definition *definition,
+                                   const ambulo_allocator *allocator, ambulo__pairs *pairs);
+void ambulo__pairs_free(const ambulo_allocator *allocator, ambulo__pairs *pairs);
+
+/* How far two capsules are apart in the rest pose: every coordinate 0, or as near as its range lets
+ * it; m, negative: they overlap. E_MEMORY. */
+ambulo_status ambulo__rest_gap(const ambulo_model *model, ambulo_capsule_pair pair,
+                               const ambulo_allocator *allocator, double *gap);
+
+/* 1: rows of the definition stand on capsule i, whose ends then are points of the model
+ * (model/model_query.h). The pairs are those listed, not AMBULO_COLLISION_AUTOMATIC. */
+int ambulo__capsule_is_used(const ambulo_problem_definition *definition, int capsule);
+/* Capsules, obstacles, places and times: every number and name in its range; reaches without a
+ * node are found with the rows. E_PROBLEM. */
+ambulo_status ambulo__collision_check(const ambulo_problem_definition *definition,
+                                      ambulo_diagnostics *diagnostics);
+/* With mirrored ends: no obstacles, no places in the world to reach, capsules of rows are mirror
+ * images. E_PROBLEM. */
+ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *definition,
+                                             ambulo_diagnostics *diagnostics);
+
+/* "collision": of each pair that is listed (m). */
+void ambulo__collision_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* "obstacle": of each capsule and obstacle (m). */
+void ambulo__obstacle_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* "reach": points at places (m). E_PROBLEM: a reach without a node. */
+ambulo_status ambulo__reach_rows(const ambulo__gait_context *context, ambulo__row_table *table,
+                                 ambulo_diagnostics *diagnostics);
+/* A place along forward, left and up above the ground's height, in the world, m. */
+void ambulo__world_place(const ambulo_problem_definition *definition, const double place[3],
+                         double world[3]);
+/* What rows keep clear of, in the world, as contact/curved.h has it; where channels begin is left
+ * 0. Of two capsules; of an obstacle by itself, without a capsule's radius, distance and weights;
+ * of a capsule and an obstacle. */
+ambulo__solid ambulo__solid_of_pair(const ambulo_problem_definition *definition,
+                                    ambulo_capsule_pair pair);
+ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *definition, int obstacle);
+ambulo__solid ambulo__solid_near_obstacle(const ambulo_problem_definition *definition, int obstacle,
+                                          int capsule);
+/* How many capsules keep clear of an obstacle, and the i-th of them. */
+int ambulo__obstacle_capsules(const ambulo_problem_definition *definition, int obstacle);
+int ambulo__obstacle_capsule(const ambulo_problem_definition *definition, int obstacle, int i);
+
+/* how a foot is turned, as linear forms of its points.
+ *
+ * x points from the heel centre to the toe centre, y from the right to the left heel corner;
+ * with the axes left l and up n of the surface on which it stands or over which it swings
+ *
+ *     yaw   = l . x        (turned to the left)
+ *     pitch = n . x        (toes up)
+ *     roll  = n . y        (left side up)
+ *
+ * sines of the angles, of a foot whose heel and toe centre are a constant distance apart. */
+
+ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot,
+                                const double left[3]);
+ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot,
+                                  const double up[3]);
+/* No terms for a foot with a single heel corner. */
+ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot, const double up[3]);
 
 #endif

@@ -25,7 +25,7 @@
  *   force    [3]        N                  4 d+3  | output rows (mechanics/plan.h)
  *   points   [p][3]     m                  4 d+6  |
  *
- * and with ground reaction, n = 4 d + 6 + 3 p, of s slots (contact/contact_load.h)
+ * and with ground reaction, n = 4 d + 6 + 3 p, of s slots (contact/contacts.h)
  *
  *   reaction [s][6]     N, N m             n      |  force, moment about the contact's centre
  *   com      [3]        m                  n+6 s /   centre of mass

@@ -7,7 +7,6 @@
  */
 #include "base/arithmetic.h"
 #include "contact/contacts.h"
-#include "contact/foot.h"
 #include "contact/row_families.h"
 
 #include <math.h>
@@ -220,7 +219,7 @@ ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
  * links are those from each point up to, not including, their common ancestor. A
  * prismatic joint among them can stretch without bound: no check.
  *
- * Compared are the points that two contacts hold (contact/foot.h), whenever two
+ * Compared are the points that two contacts hold (contact/contacts.h), whenever two
  * different feet or patches are down at the same time or hand over to each other. With a contact
  * tolerance each point may stand off its place by that much in every direction.
  */

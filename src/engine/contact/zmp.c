@@ -1,11 +1,11 @@
 /* contact/zmp.c - support regions from the places of loaded feet.
  *
- * Corners stand at place + outline (contact/foot.h): constants of a phase, because
+ * Corners stand at place + outline (contact/contacts.h): constants of a phase, because
  * the foot-strike rows hold the feet there. The margin moves every side inwards.
  */
 #include "contact/row_families.h"
 
-#include "contact/foot.h"
+#include "contact/contacts.h"
 #include "contact/rows.h"
 #include "model/neutral_pose.h"
 

@@ -13,7 +13,7 @@
  */
 #include "method/refine.h"
 
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "method/parameters.h"
 #include "method/pipeline.h"
 #include "problem/callbacks.h"

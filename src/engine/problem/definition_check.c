@@ -4,10 +4,8 @@
  * large that products of such numbers overflow, is refused here by name instead of spoiling a
  * solve.
  */
-#include "contact/collision.h"
-#include "contact/devices.h"
 #include "contact/row_families.h"
-#include "contact/holds.h"
+#include "contact/devices.h"
 #include "problem/definition.h"
 #include "problem/term.h"
 #include "trajectory/basis.h"

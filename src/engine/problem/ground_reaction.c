@@ -1,11 +1,10 @@
 /* problem/ground_reaction.c - what the kernels need to know of the ground at given times.
  *
  * Per block of 8 times [3 + 4 K][8]: a point o near them, and for each of K slots its
- * weight and centre (contact/contact_load.h, mechanics/kernel_contacts.h). o is the mean of the
+ * weight and centre (contact/contacts.h, mechanics/kernel_contacts.h). o is the mean of the
  * centres that are loaded.
  */
 #include "base/arithmetic.h"
-#include "contact/contact_load.h"
 #include "contact/contacts.h"
 #include "problem/nlp.h"
 

@@ -8,7 +8,7 @@
 #include "problem/nlp.h"
 #include "base/sized.h"
 
-#include "contact/load_profile.h"
+#include "contact/devices.h"
 #include "contact/contacts.h"
 
 #include <math.h>

@@ -15,10 +15,9 @@
 
 #include "ambulo/solve.h"
 #include "contact/devices.h"
-#include "contact/holds.h"
-#include "contact/collision.h"
-#include "contact/foot.h"
-#include "contact/gait_rule.h"
+#include "contact/row_families.h"
+#include "contact/contacts.h"
+#include "contact/schedule.h"
 #include "mechanics/plan.h"
 #include "problem/definition.h"
 #include "problem/row_runs.h"
@@ -80,7 +79,7 @@ struct ambulo_problem {
   ambulo__holds *holds;     /* NULL without */
   size_t taken_at;          /* of the kernels' scratch (ambulo__plan_take_wrench); 0: no contacts */
   double *time_factors; /* [blocks][devices and holds][8]: of profiles, clutches and holds at the
-                           nodes (contact/load_profile.h); NULL without */
+                           nodes (contact/devices.h); NULL without */
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;

@@ -10,9 +10,9 @@
 #include "problem/nlp.h"
 #include "model/model_query.h"
 #include "base/arithmetic.h"
-#include "contact/load_profile.h"
-#include "contact/phases.h"
-#include "contact/contact_load.h"
+#include "contact/devices.h"
+#include "contact/schedule.h"
+#include "contact/contacts.h"
 #include "contact/row_families.h"
 #include "problem/term.h"
 

@@ -2,7 +2,7 @@
 #include "base/arithmetic.h"
 #include "contact/row_families.h"
 #include "contact/contacts.h"
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "problem/definition.h"
 #include "problem/nlp.h"
 

@@ -8,7 +8,7 @@
  * between the nodes. */
 #include "ambulo/extend.h"
 #include "base/arithmetic.h"
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "problem/definition.h"
 #include "problem/nlp.h"
 

@@ -22,7 +22,7 @@
 #ifndef AMBULO_SOLVER_DENSE_H
 #define AMBULO_SOLVER_DENSE_H
 
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "problem/nlp.h"
 #include "solver/dense_rules.h"
 

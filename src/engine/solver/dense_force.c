@@ -9,7 +9,6 @@
  * Of all contacts together, from the root wrench, and with ground reaction of each foot. A patch
  * may press any way: of one that is in contact at some time all of its force, as |f(t) - ...|.
  */
-#include "contact/contact_load.h"
 #include "contact/contacts.h"
 #include "solver/dense.h"
 

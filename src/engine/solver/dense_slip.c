@@ -1,7 +1,7 @@
 /* solver/dense_slip.c - how far loaded points of feet and patches move along the ground between
  * nodes.
  *
- * A corner is loaded while a contact of its foot has it down (contact/foot.h). With a and b
+ * A corner is loaded while a contact of its foot has it down (contact/contacts.h). With a and b
  * the nodes before and after t at which the corner stands loaded on the same foothold,
  *
  *     slip(t) = | t-part of  r(t) - ((1 - s) r(a) + s r(b)) |,   s = (t - a) / (b - a)        m
@@ -16,7 +16,6 @@
  * contact is loaded in its middle, and slips along its own surface.
  */
 #include "base/arithmetic.h"
-#include "contact/foot.h"
 #include "contact/contacts.h"
 #include "solver/dense.h"
 

@@ -39,7 +39,7 @@
 #include "solver/sensitivity.h"
 
 #include "contact/row_families.h"
-#include "contact/phases.h"
+#include "contact/schedule.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,9 +1,9 @@
 /* solver/explain_task.c - says so when a gait without flight that failed asks for what is no walk
- * (contact/swing.h). */
+ * (contact/schedule.h). */
 #include "solver/explain.h"
 
 #include "contact/row_families.h"
-#include "contact/swing.h"
+#include "contact/schedule.h"
 
 #include <math.h>
 

@@ -13,7 +13,7 @@
 #include "solver/sensitivity.h"
 
 #include "contact/row_families.h"
-#include "contact/load_profile.h"
+#include "contact/devices.h"
 #include "model/conditions.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* solver/numbers_walk.c - when and where a body steps, by the keys of `gait`, `contacts`, `time`
  * and `ends`.
  *
- * A key of a gait moves what follows from it (contact/gait_rule.h); a key of a listed contact moves
+ * A key of a gait moves what follows from it (contact/schedule.h); a key of a listed contact moves
  * that contact, and those that have to go along:
  *
  *   - Contacts of a foot that follow each other on one foothold stay on one: one alone would put
@@ -21,9 +21,9 @@
 #include "solver/sensitivity.h"
 
 #include "base/arithmetic.h"
-#include "contact/foot.h"
-#include "contact/gait_rule.h"
-#include "contact/load_profile.h"
+#include "contact/contacts.h"
+#include "contact/schedule.h"
+#include "contact/devices.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "model/model.h"
 #include "solver/suggest.h"
 
-#include "contact/foot.h"
+#include "contact/contacts.h"
 
 #include <math.h>
 #include <stdio.h>

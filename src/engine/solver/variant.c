@@ -2,7 +2,7 @@
 #include "solver/variant.h"
 
 #include "base/diagnostics.h"
-#include "contact/gait_rule.h"
+#include "contact/schedule.h"
 #include "model/conditions.h"
 #include "problem/definition.h"
 

@@ -1,6 +1,6 @@
 /* definitions/problem_constraints.c - `constraints:`, `ends:` and `obstacles:` of a problem file.
  */
-#include "contact/collision.h"
+#include "contact/row_families.h"
 #include "definitions/problem_reader.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* definitions/problem_contacts.c - `contacts:` of a problem file: feet and patches, listed. */
-#include "contact/foot.h"
+#include "contact/contacts.h"
 #include "definitions/problem_reader.h"
 
 enum { MOST_CONTACTS = 5000 };

@@ -3,7 +3,7 @@
  *
  * Duration, number of steps, step time and speed say the same thing twice:
  *     step_time = step_length / speed,   duration = steps * step_time
- * What is missing follows (contact/gait_rule.h); what is given must agree. A speed and a time make
+ * What is missing follows (contact/schedule.h); what is given must agree. A speed and a time make
  * the length: so a cadence is varied at a given speed. Of a speed alone follow both. Two unlike
  * steps: lists of two lengths, of two times.
  */
@@ -17,7 +17,7 @@
 /* ---------------------------------------------------------------------- phases */
 
 /* When heel, sole and toes come and go, and steps whose length is a function of the speed: what
- * becomes of them is contact/gait_rule.h's. When the file says nothing, textbook timing of
+ * becomes of them is contact/schedule.h's. When the file says nothing, textbook timing of
  * comfortable walking at every speed (foot flat at 8 %, heel rise after 38 %, toe-off at 62 %;
  * Perry, Gait Analysis, 1992). With `by_speed` the stance is shorter the faster people walk, by 3.5
  * % of the stride for 1 m/s (Kirtley, Whittle & Jefferson, J Biomed Eng 7:282-288, 1985), -0.145

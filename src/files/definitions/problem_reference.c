@@ -5,7 +5,7 @@
  * its rows the motion is interpolated linearly. Coordinates it does not have are not
  * tracked (scale 0).
  */
-#include "contact/phases.h"
+#include "contact/schedule.h"
 #include "definitions/problem_reader.h"
 #include "formats/motion_file.h"
 
