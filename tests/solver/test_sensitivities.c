@@ -242,7 +242,7 @@ static void the_dearest_stands_first(void **state) {
     assert_true(fabs(change) <= before);
     before = fabs(change);
     assert_close(one->share, change / objective, 1e-12);
-    const char *verb = change == 0.0 ? " costs nothing" : change > 0.0 ? " costs " : " saves ";
+    const char *verb = change == 0.0 ? " costs nothing" : change > 0.0 ? " raises " : " lowers ";
     assert_non_null(strstr(one->words, verb));
     assert_non_null(strstr(one->words, one->label));
   }

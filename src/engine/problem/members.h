@@ -87,8 +87,9 @@ typedef struct ambulo__member {
   double usual[2];  /* default; all behind the second as the second */
   int flags;        /* AMBULO__MAY_BE_OFF | ... */
   ambulo__quantity quantity;
-  const char *label;        /* for people; NULL: not a number that moves smoothly */
-  int of_kinds;             /* of ambulo_term: kinds that have it (AMBULO__TERM_...); 0: all */
+  const char *label; /* for people, of each number by itself "first|second"; NULL: not a number
+                        that moves smoothly */
+  int of_kinds;      /* of ambulo_term: kinds that have it (AMBULO__TERM_...); 0: all */
   const char *const *words; /* [word_count] of a choice; the first stands for first_word */
   int word_count, first_word;
   ambulo__extent extent;       /* of an array or items */

@@ -279,8 +279,8 @@ static ambulo_status differ(stationary *s, ambulo__parameter *n, int *found) {
 /* --------------------------------------------------------------------- limits */
 
 /* -sum lambda dc/db over the rows of one kind of limit, [d][2]: y - lo >= 0, hi - y >= 0. With
- * mirrored ends a row may be the partner's (contact/row_families.h): its upper bound has dc/db = 1 and
- * its lower one -1, whichever side it is on. */
+ * mirrored ends a row may be the partner's (contact/row_families.h): its upper bound has dc/db = 1
+ * and its lower one -1, whichever side it is on. */
 static void pull_at_limits(const stationary *s, ambulo_limited what, double *by) {
   const ambulo_problem *p = s->p->problem;
   memset(by, 0, 2 * (size_t)p->coordinates * sizeof *by);

@@ -213,66 +213,50 @@ void ambulo__parameters_of_devices(ambulo__parameters *p) {
 
 /* ----------------------------------------------------------- what hands hold */
 
-typedef struct hold_keys {
-  ambulo__parameters *p;
-  ambulo_hold *hold;
-  char path[AMBULO__PARAMETER_TEXT]; /* "load[box]" */
-} hold_keys;
-
-static void name_path(hold_keys *k, int i) {
-  const ambulo__problem_keys *keys = &k->p->problem->keys;
-  int alone = k->p->problem->definition.hold_count == 1 && k->p->problem->model->load_count == 0;
+static void name_path(const ambulo_problem *problem, const ambulo_hold *hold, int i,
+                      char path[AMBULO__PARAMETER_TEXT]) {
+  const ambulo__problem_keys *keys = &problem->keys;
+  int alone = problem->definition.hold_count == 1 && problem->model->load_count == 0;
   if (alone && !keys->loads)
-    (void)snprintf(k->path, sizeof k->path, "load");
-  else if (strcmp(k->hold->name, "load") == 0) /* as loads without a name are called */
-    (void)snprintf(k->path, sizeof k->path, "load[%d]", keys->loads ? keys->hold_item[i] : i);
+    (void)snprintf(path, AMBULO__PARAMETER_TEXT, "load");
+  else if (strcmp(hold->name, "load") == 0) /* as loads without a name are called */
+    (void)snprintf(path, AMBULO__PARAMETER_TEXT, "load[%d]", keys->loads ? keys->hold_item[i] : i);
   else
-    (void)snprintf(k->path, sizeof k->path, "load[%s]", k->hold->name);
+    (void)snprintf(path, AMBULO__PARAMETER_TEXT, "load[%s]", hold->name);
 }
 
-static void add_of_hold(const hold_keys *k, ambulo__quantity quantity, double *at, const char *what,
-                        const char *key) {
-  char label[AMBULO__PARAMETER_TEXT];
-  (void)snprintf(label, sizeof label, "%s of %s", what, k->hold->name);
-  ambulo__parameter_add(k->p, quantity, at, label, "%s.%s", k->path, key);
+static int is_zero(const double vector[3]) {
+  return vector[0] == 0.0 && vector[1] == 0.0 && vector[2] == 0.0;
 }
 
-static void add_vector(const hold_keys *k, ambulo__quantity quantity, double value[3],
-                       const char *const words[3], const char *key) {
-  int mirrored = k->p->problem->definition.ends == AMBULO_ENDS_MIRRORED;
-  if (value[0] == 0.0 && value[1] == 0.0 && value[2] == 0.0) return;
-  for (int i = 0; i < 3; i++) {
-    char one[20];
-    if (i == 1 && mirrored) continue;
-    (void)snprintf(one, sizeof one, "%s[%d]", key, i);
-    add_of_hold(k, quantity, &value[i], words[i], one);
-  }
+static int is_time(const ambulo__member *m) {
+  return m->quantity == AMBULO__EVENT_TIME || m->quantity == AMBULO__TIME;
 }
 
-/* nodes go along on grids on events, where nothing else begins or ends at its times */
-static void add_times(const hold_keys *k) {
-  ambulo_hold *h = k->hold;
-  int rises = ambulo__hold_rises(h),
-      falls = ambulo__hold_falls(h, ambulo_problem_duration(k->p->problem));
-  k->p->next.moves_events = 1;
-  if (rises) add_of_hold(k, AMBULO__EVENT_TIME, &h->from, "start of the hold", "from");
-  if (falls) add_of_hold(k, AMBULO__EVENT_TIME, &h->to, "end of the hold", "to");
-  if (rises || falls) add_of_hold(k, AMBULO__TIME, &h->ramp, "ramp", "ramp");
-  k->p->next.moves_events = 0;
+static int is_not_in_file(const ambulo__parameters *p, const void *item, const ambulo__member *m,
+                          int k) {
+  const ambulo_hold *h = item;
+  const double *at = (const double *)(const void *)((const char *)item + m->at);
+  int rises = ambulo__hold_rises(h), falls = ambulo__hold_falls(h, p->problem->definition.duration);
+  if (is_time(m) != p->next.moves_events) return 1;
+  if (m->count == 3)
+    return is_zero(at) || (k == 1 && p->problem->definition.ends == AMBULO_ENDS_MIRRORED);
+  if (at == &h->from) return !rises;
+  if (at == &h->to) return !falls;
+  return at == &h->ramp ? !rises && !falls : *at == 0.0;
 }
 
+/* with its times nodes go along, on grids on events where nothing else begins or ends then */
 void ambulo__parameters_of_holds(ambulo__parameters *p) {
-  static const char *const centers[3] = {"center forward", "center to the left", "center upward"};
-  static const char *const pushes[3] = {"push forward", "push to the left", "push upward"};
   ambulo_hold *holds = ambulo__variant_holds(&p->variant);
+  char path[AMBULO__PARAMETER_TEXT], of[AMBULO__PARAMETER_TEXT];
   for (int i = 0; i < p->problem->definition.hold_count; i++) {
-    hold_keys k = {.p = p, .hold = &holds[i]};
-    name_path(&k, i);
-    if (k.hold->mass > 0.0) add_of_hold(&k, AMBULO__MASS, &k.hold->mass, "mass", "mass");
-    if (k.hold->inertia > 0.0)
-      add_of_hold(&k, AMBULO__RATIO, &k.hold->inertia, "inertia", "inertia");
-    add_vector(&k, AMBULO__STEP_LENGTH, k.hold->center, centers, "center");
-    add_vector(&k, AMBULO__FORCE, k.hold->force, pushes, "force");
-    add_times(&k);
+    name_path(p->problem, &holds[i], i, path);
+    (void)snprintf(of, sizeof of, "of %s", holds[i].name);
+    for (int times = 0; times < 2; times++) {
+      p->next.moves_events = times;
+      ambulo__parameters_of_members(p, &ambulo__hold_members, &holds[i], path, of, is_not_in_file);
+    }
+    p->next.moves_events = 0;
   }
 }

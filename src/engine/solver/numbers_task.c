@@ -144,22 +144,19 @@ static void add_coordinate(const term_keys *t, int i) {
   if (term->tendon && term->tendon[i] > 0.0) add_entry(t, i, AMBULO__RATIO, &tendon);
 }
 
+static int is_of_another_kind(const ambulo__parameters *p, const void *term,
+                              const ambulo__member *m, int k) {
+  (void)p;
+  (void)k;
+  return m->of_kinds && !ambulo__term_has(term, m->of_kinds);
+}
+
 static void add_term(const term_keys *t) {
-  ambulo_term *term = t->term;
-  char label[AMBULO__PARAMETER_TEXT];
-  (void)snprintf(label, sizeof label, "weight of %s", t->name);
-  ambulo__parameter_add(t->p, AMBULO__RATIO, &term->weight, label, "objective[%s].weight", t->item);
-  if (ambulo__term_has(term, AMBULO__TERM_HEIGHT))
-    ambulo__parameter_add(t->p, AMBULO__SHORT_LENGTH, &term->height,
-                          "height that swinging feet keep", "objective[%s].height", t->item);
-  (void)snprintf(label, sizeof label, "smoothing of %s", t->name);
-  if (ambulo__term_has(term, AMBULO__TERM_SMOOTHING) && term->smoothing > 0.0)
-    ambulo__parameter_add(t->p, AMBULO__RATIO, &term->smoothing, label, "objective[%s].smoothing",
-                          t->item);
-  (void)snprintf(label, sizeof label, "exponent of %s", t->name);
-  if (ambulo__term_has(term, AMBULO__TERM_POWER))
-    ambulo__parameter_add(t->p, AMBULO__RATIO, &term->power, label, "objective[%s].power", t->item);
-  if (ambulo__term_info_of(term->kind)->subject == AMBULO__TERM_OF_OTHERS) return;
+  char path[ITEM_TEXT + 12];
+  (void)snprintf(path, sizeof path, "objective[%s]", t->item);
+  ambulo__parameters_of_members(t->p, &ambulo__term_members, t->term, path, t->name,
+                                is_of_another_kind);
+  if (ambulo__term_info_of(t->term->kind)->subject == AMBULO__TERM_OF_OTHERS) return;
   for (int i = 0; i < t->p->problem->coordinates; i++) add_coordinate(t, i);
 }
 
@@ -175,24 +172,23 @@ void ambulo__parameters_of_terms(ambulo__parameters *p) {
   p->next.enters = AMBULO__ENTERS_ALL;
 }
 
-/* ---------------------------------------------------------------- constraints */
+/* ------------------------------------------------------- constraints, ground */
 
-static void add_clearance(ambulo__parameters *p) {
-  ambulo_clearance *c = &p->variant.definition.clearance;
-  if (isnan(c->height)) return;
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &c->height, "clearance",
-                        "constraints.clearance.height");
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &c->ceiling, "height allowed to swinging feet",
-                        "constraints.clearance.ceiling");
-  ambulo__parameter_add(p, AMBULO__SMALL_ANGLE, &c->turn, "turn allowed to swinging feet",
-                        "constraints.clearance.turn");
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &c->outward, "outward room of swinging feet",
-                        "constraints.clearance.outward");
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &c->inward, "inward room of swinging feet",
-                        "constraints.clearance.inward");
-  if (isnan(c->feet)) return;
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &c->feet, "gap between the feet",
-                        "constraints.clearance.feet");
+/* numbers that rows do not have */
+static int is_idle(const ambulo__parameters *p, const void *item, const ambulo__member *m, int k) {
+  const ambulo_problem_definition *d = &p->variant.definition;
+  const double *at = (const double *)(const void *)((const char *)item + m->at);
+  int tolerant = d->contact_tolerance > 0.0;
+  ambulo__span flight;
+  (void)k;
+  if (at == &d->contact_tolerance || at == &d->orientation_tolerance) return !tolerant;
+  if (at == d->strike_pitch) return !tolerant || !(at[0] < at[1]);
+  if (at == &d->support_margin) return d->support == AMBULO_SUPPORT_OFF;
+  if (at == &d->ground_height) return d->contact_count == 0;
+  if (at == &d->ground_reaction.flight_tolerance) return !ambulo__flight_span(d, &flight);
+  if (strncmp(m->key, "pressure.", 9) == 0) return !d->ground_reaction.pressure;
+  /* others are moved with what they belong to; the least force has a key of its own with forces */
+  return at == &d->duration || at == &d->travel || at == &d->rise || at == &d->minimum_force;
 }
 
 static void add_tube(ambulo__parameters *p, int t, int i) {
@@ -211,154 +207,69 @@ static void add_tube(ambulo__parameters *p, int t, int i) {
                            problem->model->coordinates[m].name);
 }
 
-static void add_constraints(ambulo__parameters *p) {
+static void add_part(ambulo__parameters *p, const ambulo__structure *s, void *part) {
+  ambulo__parameters_of_members(p, s, part, s->key, "", is_idle);
+}
+
+static void add_rows(ambulo__parameters *p) {
   ambulo_problem_definition *d = &p->variant.definition;
-  if (d->contact_tolerance > 0.0) {
-    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &d->contact_tolerance, "contact tolerance",
-                          "constraints.contact_tolerance");
-    ambulo__parameter_add(p, AMBULO__SMALL_ANGLE, &d->orientation_tolerance,
-                          "orientation tolerance", "constraints.orientation_tolerance");
-  }
-  if (d->contact_tolerance > 0.0 && d->strike_pitch[0] < d->strike_pitch[1]) {
-    ambulo__parameter_add(p, AMBULO__ANGLE, &d->strike_pitch[0], "least pitch at heel strike",
-                          "constraints.strike_pitch[0]");
-    ambulo__parameter_add(p, AMBULO__ANGLE, &d->strike_pitch[1], "largest pitch at heel strike",
-                          "constraints.strike_pitch[1]");
-  }
-  if (d->support != AMBULO_SUPPORT_OFF)
-    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &d->support_margin,
-                          "margin of the support polygon", "constraints.zmp_margin");
-  if (d->contact_count > 0)
-    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &d->ground_height, "height of the ground",
-                          "constraints.ground_height");
-  add_clearance(p);
+  int reacts = d->ground_reaction.kind != AMBULO_REACTION_NONE;
+  ambulo__parameters_of_members(p, &ambulo__definition_members, d, "", "", is_idle);
+  if (!isnan(d->clearance.height)) add_part(p, &ambulo__clearance_members, &d->clearance);
+  if (ambulo_problem_pairs(p->problem, 0, NULL) > 0)
+    add_part(p, &ambulo__collision_members, &d->collision);
+  if (reacts) add_part(p, &ambulo__ground_reaction_members, &d->ground_reaction);
+  if (d->minimum_force >= 0.0)
+    ambulo__parameter_add(p, AMBULO__BODY_WEIGHT, &d->minimum_force, "least vertical force",
+                          "%s.minimum_force", reacts ? "ground_reaction" : "constraints");
   for (int t = 0; t < d->tube_count; t++)
     for (int i = 0; i < p->problem->coordinates; i++) add_tube(p, t, i);
 }
 
 /* --------------------------------------------------------- obstacles, reaches */
 
-static const char *const ways[] = {"forward", "to the left", "up"};
-
-/* "place of obstacle 'beam', up" at obstacles[beam].center[2] */
-static void add_vector(ambulo__parameters *p, const ambulo_obstacle *o, double value[3],
-                       const char *what, const char *key) {
-  char label[AMBULO__PARAMETER_TEXT];
-  for (int k = 0; k < 3; k++) {
-    (void)snprintf(label, sizeof label, "%s of obstacle '%s', %s", what, o->name, ways[k]);
-    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &value[k], label, "obstacles[%s].%s[%d]", o->name,
-                          key, k);
-  }
+static int is_of_another_shape(const ambulo__parameters *p, const void *item,
+                               const ambulo__member *m, int k) {
+  const ambulo_obstacle *o = item;
+  const void *at = (const char *)item + m->at;
+  int of_box = at == o->center || at == o->half || at == &o->heading;
+  int of_capsule = at == o->from || at == o->to || at == &o->radius;
+  (void)p;
+  (void)k;
+  return o->shape == AMBULO_OBSTACLE_BOX ? of_capsule : of_box;
 }
 
-static void add_obstacle(ambulo__parameters *p, ambulo_obstacle *o) {
-  char label[AMBULO__PARAMETER_TEXT];
-  if (o->shape == AMBULO_OBSTACLE_BOX) {
-    add_vector(p, o, o->center, "place", "center");
-    (void)snprintf(label, sizeof label, "heading of obstacle '%s'", o->name);
-    ambulo__parameter_add(p, AMBULO__ANGLE, &o->heading, label, "obstacles[%s].heading", o->name);
-  } else {
-    add_vector(p, o, o->from, "one end", "from");
-    add_vector(p, o, o->to, "other end", "to");
-    (void)snprintf(label, sizeof label, "radius of obstacle '%s'", o->name);
-    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &o->radius, label, "obstacles[%s].radius",
-                          o->name);
-  }
-  (void)snprintf(label, sizeof label, "margin of obstacle '%s'", o->name);
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &o->margin, label, "obstacles[%s].margin",
-                        o->name);
-}
-
-static void add_reach(ambulo__parameters *p, ambulo_reach *r, int index) {
-  const ambulo_point *points = p->problem->model->points;
-  const char *point = points[r->point].name;
-  char label[AMBULO__PARAMETER_TEXT];
-  for (int axis = 0; axis < 3; axis++) {
-    if (axis != 1 && p->problem->definition.ends == AMBULO_ENDS_MIRRORED) continue; /* straight */
-    if (r->is_relative)
-      (void)snprintf(label, sizeof label, "way from %s to %s, %s", points[r->about].name, point,
-                     ways[axis]);
-    else
-      (void)snprintf(label, sizeof label, "place that %s reaches, %s", point, ways[axis]);
-    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &r->place[axis], label,
-                          "constraints.reach[%d].place[%d]", index, axis);
-  }
-  if (r->tolerance == 0.0) return;
-  (void)snprintf(label, sizeof label, "tolerance of the place that %s reaches", point);
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &r->tolerance, label,
-                        "constraints.reach[%d].tolerance", index);
+/* with mirrored ends a way to the mirror image is straight to the side */
+static int is_not_asked(const ambulo__parameters *p, const void *item, const ambulo__member *m,
+                        int k) {
+  const ambulo_reach *r = item;
+  const void *at = (const char *)item + m->at;
+  if (at == &r->tolerance) return r->tolerance == 0.0;
+  return at == r->place && k != 1 && p->problem->definition.ends == AMBULO_ENDS_MIRRORED;
 }
 
 static void add_bodies(ambulo__parameters *p) {
-  ambulo_problem_definition *d = &p->variant.definition;
+  const ambulo_problem_definition *d = &p->variant.definition;
+  const ambulo_point *points = p->problem->model->points;
   ambulo_obstacle *obstacles = ambulo__variant_obstacles(&p->variant);
   ambulo_reach *reaches = ambulo__variant_reaches(&p->variant);
-  if (ambulo_problem_pairs(p->problem, 0, NULL) > 0)
-    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &d->collision.margin, "margin between capsules",
-                          "constraints.collision.margin");
-  for (int o = 0; o < d->obstacle_count; o++) add_obstacle(p, &obstacles[o]);
-  for (int r = 0; r < d->reach_count; r++) add_reach(p, &reaches[r], r);
-}
-
-/* --------------------------------------------------------------------- ground */
-
-static void add_ends(ambulo__parameters *p, double value[2], const char *rear, const char *front,
-                     const char *key) {
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &value[0], rear, "ground_reaction.pressure.%s[0]",
-                        key);
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &value[1], front, "ground_reaction.pressure.%s[1]",
-                        key);
-}
-
-static void add_pressure(ambulo__parameters *p, ambulo_ground_reaction *r) {
-  add_ends(p, r->heel_pressure, "rear end of the pressure under the heel",
-           "front end of the pressure under the heel", "heel");
-  add_ends(p, r->flat_pressure, "rear end of the pressure under the flat foot",
-           "front end of the pressure under the flat foot", "flat");
-  add_ends(p, r->toe_pressure, "rear end of the pressure under the toes",
-           "front end of the pressure under the toes", "toe");
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &r->heel_roll,
-                        "roll of the pressure under the heel", "ground_reaction.pressure.roll");
-  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &r->pressure_width, "width of the pressure",
-                        "ground_reaction.pressure.width");
-  if (r->arc_pressure > 0.0)
-    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &r->arc_pressure,
-                          "distance of the pressure from an arc's", "ground_reaction.pressure.arc");
-}
-
-static void add_sharing(ambulo__parameters *p, ambulo_ground_reaction *r) {
-  ambulo__span flight;
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &r->moment_arm, "moment arm of contacts",
-                        "ground_reaction.moment_arm");
-  ambulo__parameter_add(p, AMBULO__RATIO, &r->slant, "slant of forces on contacts",
-                        "ground_reaction.slant");
-  if (r->loading_rate >= 0.0)
-    ambulo__parameter_add(p, AMBULO__LOADING_RATE, &r->loading_rate, "loading rate of contacts",
-                          "ground_reaction.loading_rate");
-  if (ambulo__flight_span(&p->problem->definition, &flight))
-    ambulo__parameter_add(p, AMBULO__RATIO, &r->flight_tolerance, "force that is left in flight",
-                          "ground_reaction.flight_tolerance");
-}
-
-static void add_ground(ambulo__parameters *p) {
-  ambulo_problem_definition *d = &p->variant.definition;
-  ambulo_ground_reaction *r = &d->ground_reaction;
-  int reacts = r->kind != AMBULO_REACTION_NONE;
-  if (d->minimum_force >= 0.0)
-    ambulo__parameter_add(p, AMBULO__BODY_WEIGHT, &d->minimum_force, "least vertical force",
-                          "%s.minimum_force", reacts ? "ground_reaction" : "constraints");
-  if (!reacts) return;
-  add_sharing(p, r);
-  if (r->friction >= 0.0)
-    ambulo__parameter_add(p, AMBULO__RATIO, &r->friction, "friction", "ground_reaction.friction");
-  if (r->free_moment >= 0.0)
-    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, &r->free_moment, "free moment allowed",
-                          "ground_reaction.free_moment");
-  if (r->pressure) add_pressure(p, r);
+  char path[AMBULO__PARAMETER_TEXT], name[AMBULO__PARAMETER_TEXT];
+  for (int o = 0; o < d->obstacle_count; o++) {
+    (void)snprintf(path, sizeof path, "obstacles[%s]", obstacles[o].name);
+    (void)snprintf(name, sizeof name, "'%s'", obstacles[o].name);
+    ambulo__parameters_of_members(p, &ambulo__obstacle_members, &obstacles[o], path, name,
+                                  is_of_another_shape);
+  }
+  for (int r = 0; r < d->reach_count; r++) {
+    int relative = reaches[r].is_relative;
+    (void)snprintf(path, sizeof path, "constraints.reach[%d]", r);
+    (void)snprintf(name, sizeof name, "%s%s%s", points[reaches[r].point].name,
+                   relative ? " from " : "", relative ? points[reaches[r].about].name : "");
+    ambulo__parameters_of_members(p, &ambulo__reach_members, &reaches[r], path, name, is_not_asked);
+  }
 }
 
 void ambulo__parameters_of_task(ambulo__parameters *p) {
-  add_constraints(p);
+  add_rows(p);
   add_bodies(p);
-  add_ground(p);
 }

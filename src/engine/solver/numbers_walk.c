@@ -111,7 +111,9 @@ static void add_width(ambulo__parameters *p) {
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, &p->variant.rule.width, "step width",
                         "gait.step_width");
   ambulo__parameter_within(p, 0.0, 10.0);
-  if (!p->failed) p->list[p->count - 1].value = width;
+  if (p->failed) return;
+  p->list[p->count - 1].value = width;
+  p->list[p->count - 1].is_length = 1;
 }
 
 static void add_phases(ambulo__parameters *p) {
@@ -224,39 +226,37 @@ static int is_bound(const foothold *f) {
   return 0;
 }
 
-/* a number of the foothold's contacts, `offset` bytes from where a contact begins */
-static void add_of_foothold(const foothold *f, ambulo__quantity quantity, size_t offset,
-                            const char *what, const char *key) {
+/* number k of a member of the foothold's contacts */
+static void add_of_foothold(const foothold *f, const ambulo__member *m, int k) {
   const ambulo_problem_definition *d = &f->p->problem->definition;
   char *own = (char *)ambulo__variant_contacts(&f->p->variant), label[AMBULO__PARAMETER_TEXT];
+  char key[40];
   int first = (int)(f->first - d->contacts), count = f->p->count;
-  (void)snprintf(label, sizeof label, "%s contact %d", what, first);
+  ambulo__member_label(m, k, "", label);
+  (void)snprintf(label + strlen(label), sizeof label - strlen(label), " %d", first);
+  (void)snprintf(key, sizeof key, m->count > 1 ? "%s[%d]" : "%s", m->key, k);
   for (int c = first; c < d->contact_count; c++) {
-    double *at = (double *)(void *)(own + (size_t)c * sizeof *d->contacts + offset);
+    double *at = (double *)(void *)(own + (size_t)c * sizeof *d->contacts + m->at) + k;
     if (c == first)
-      ambulo__parameter_add(f->p, quantity, at, label, "contacts[%d].%s", first, key);
+      ambulo__parameter_add(f->p, m->quantity, at, label, "contacts[%d].%s", first, key);
     else if (is_there(f, &d->contacts[c]) && f->p->count > count)
       ambulo__parameter_with(f->p, 1.0, at, "contacts[%d].%s", c, key);
   }
 }
 
+/* place, normal and heading; on level ground nothing that would leave it */
 static void add_foothold(const foothold *f, int level) {
-  static const char *const place[] = {"place[0]", "place[1]", "place[2]"};
-  static const char *const normal[] = {"normal[0]", "normal[1]", "normal[2]"};
-  static const char *const ways[] = {"normal forward at", "normal to the left at",
-                                     "normal upward at"};
+  const ambulo__structure *s = &ambulo__contact_members;
   const double *n = f->first->normal;
-  size_t of_place = offsetof(ambulo_contact, place), of_normal = offsetof(ambulo_contact, normal);
-  if (!level) {
-    add_of_foothold(f, AMBULO__STEP_LENGTH, of_place + 2 * sizeof *n, "height of the foothold of",
-                    place[2]);
-    add_of_foothold(f, AMBULO__ANGLE, offsetof(ambulo_contact, heading), "heading of", "heading");
-    for (int i = 0; (n[0] != 0.0 || n[1] != 0.0 || n[2] != 0.0) && i < 3; i++)
-      add_of_foothold(f, AMBULO__RATIO, of_normal + (size_t)i * sizeof *n, ways[i], normal[i]);
+  int tilted = n[0] != 0.0 || n[1] != 0.0 || n[2] != 0.0;
+  for (int i = 0; i < s->count; i++) {
+    const ambulo__member *m = &s->members[i];
+    int of_place = m->at == offsetof(ambulo_contact, place);
+    if (!m->label || m->quantity == AMBULO__EVENT_TIME || (level && !of_place) ||
+        (m->at == offsetof(ambulo_contact, normal) && !tilted))
+      continue;
+    for (int k = 0; k < (level ? 2 : m->count); k++) add_of_foothold(f, m, k);
   }
-  add_of_foothold(f, AMBULO__STEP_LENGTH, of_place, "foothold forward of", place[0]);
-  add_of_foothold(f, AMBULO__STEP_LENGTH, of_place + sizeof *n, "foothold to the left of",
-                  place[1]);
 }
 
 static void add_footholds(ambulo__parameters *p) {

@@ -71,6 +71,38 @@ void ambulo__parameter_within(ambulo__parameters *p, double low, double high) {
   p->list[p->count - 1].high = high;
 }
 
+void ambulo__member_label(const ambulo__member *m, int k, const char *of,
+                          char text[AMBULO__PARAMETER_TEXT]) {
+  const char *label = m->label;
+  for (; k > 0 && strchr(label, '|'); k--) label = strchr(label, '|') + 1;
+  (void)snprintf(text, AMBULO__PARAMETER_TEXT, "%.*s%s%s", (int)strcspn(label, "|"), label,
+                 of[0] ? " " : "", of);
+}
+
+void ambulo__parameters_of_members(ambulo__parameters *p, const ambulo__structure *s, void *item,
+                                   const char *path, const char *of, ambulo__idle_number *idle) {
+  char label[AMBULO__PARAMETER_TEXT], index[16] = "";
+  for (int i = 0; i < s->count; i++) {
+    const ambulo__member *m = &s->members[i];
+    double *at = (double *)(void *)((char *)item + m->at);
+    if (!m->label || m->type > AMBULO__FILE_ANGLE) continue;
+    for (int k = 0; k < m->count; k++) {
+      if (!isfinite(at[k]) || idle(p, item, m, k)) continue;
+      ambulo__member_label(m, k, of, label);
+      if (m->count > 1) (void)snprintf(index, sizeof index, "[%d]", k);
+      ambulo__parameter_add(p, m->quantity, &at[k], label, "%s%s%s%s", path, path[0] ? "." : "",
+                            m->key, m->count > 1 ? index : "");
+      double size = m->flags & AMBULO__BODY_LENGTH && p->problem->keys.written_for
+                        ? p->problem->keys.longer
+                        : 1.0;
+      double unit = m->type == AMBULO__FILE_ANGLE ? p->problem->keys.radians : 1.0;
+      if (m->low < m->high)
+        ambulo__parameter_within(p, m->low * unit * size, m->high * unit * size);
+      if (!p->failed) p->list[p->count - 1].is_length = (m->flags & AMBULO__BODY_LENGTH) != 0;
+    }
+  }
+}
+
 int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign) {
   const ambulo_coordinate *c = &problem->model->coordinates[i];
   *sign = c->mirror_sign;
@@ -118,25 +150,11 @@ void ambulo__parameter_set(ambulo__parameters *p, const ambulo__parameter *param
 /* ---------------------------------------------------------------------- units */
 
 /* what a file's number is multiplied by where it is written for another body; 0: not known */
-static double size_of(const ambulo__problem_keys *keys, const char *name) {
-  static const char *const lengths[] = {"gait.step_width",
-                                        "constraints.contact_tolerance",
-                                        "constraints.zmp_margin",
-                                        "constraints.clearance.height",
-                                        "constraints.clearance.ceiling",
-                                        "constraints.clearance.outward",
-                                        "constraints.clearance.inward",
-                                        "constraints.clearance.feet",
-                                        "constraints.collision.margin",
-                                        "ground_reaction.moment_arm",
-                                        "ground_reaction.free_moment",
-                                        "ground_reaction.pressure."};
+static double size_of(const ambulo__problem_keys *keys, const ambulo__parameter *p) {
   if (!keys->written_for) return 1.0;
-  if (strncmp(name, "objective[", 10) == 0) return 0.0;
-  if (strcmp(name, "ground_reaction.loading_rate") == 0) return 1.0 / sqrt(keys->longer);
-  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
-    if (strncmp(name, lengths[i], strlen(lengths[i])) == 0) return keys->longer;
-  return 1.0;
+  if (strncmp(p->name, "objective[", 10) == 0) return 0.0;
+  if (p->quantity == AMBULO__LOADING_RATE) return 1.0 / sqrt(keys->longer);
+  return p->is_length ? keys->longer : 1.0;
 }
 
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *p) {
@@ -144,7 +162,7 @@ double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__param
   int of_model = strncmp(p->name, "model.", 6) == 0;
   int turns = p->quantity == AMBULO__ANGLE || p->quantity == AMBULO__TURNING_SPEED ||
               p->quantity == AMBULO__TURNING_JOLT;
-  if (!of_model) return size_of(&problem->keys, p->name) * (turns ? problem->keys.radians : 1.0);
+  if (!of_model) return size_of(&problem->keys, p) * (turns ? problem->keys.radians : 1.0);
   if (turns) return units->angle;
   if (p->quantity == AMBULO__TORQUE) return units->moment;
   return p->quantity == AMBULO__FORCE ? units->force : units->length;

@@ -40,7 +40,8 @@ typedef struct ambulo__parameter {
   double share;                   /* of f*, by one step; NaN where f* is not positive */
   int order;                      /* before sorting */
   double low, high;               /* what a file may say, SI, rad */
-  int address, addresses;         /* first of the list's, and how many */
+  int is_length;          /* as large as the body is long, where a file is written for one */
+  int address, addresses; /* first of the list's, and how many */
   ambulo__enters enters;
   int term;         /* of AMBULO__ENTERS_TERM */
   int moves_events; /* nodes, or what is active at one, go along: where it may have no derivative */
@@ -77,6 +78,18 @@ void ambulo__parameter_with(ambulo__parameters *parameters, double sign, double 
                             const char *name, ...);
 /* ... stays within, in a file. */
 void ambulo__parameter_within(ambulo__parameters *parameters, double low, double high);
+/* The label of number k of a member, and of what. */
+void ambulo__member_label(const ambulo__member *member, int k, const char *of,
+                          char text[AMBULO__PARAMETER_TEXT]);
+/* 1: number k of a member of `item` has no key in this problem. */
+typedef int ambulo__idle_number(const ambulo__parameters *parameters, const void *item,
+                                const ambulo__member *member, int k);
+/* Adds the numbers of `item`, which belongs to the variant, that its table has labels for: `path`
+ * stands before their keys, `of` behind their labels. Numbers that are off or infinite have none.
+ */
+void ambulo__parameters_of_members(ambulo__parameters *parameters,
+                                   const ambulo__structure *structure, void *item, const char *path,
+                                   const char *of, ambulo__idle_number *idle);
 /* With mirrored ends left and right have to stay alike: the coordinate whose numbers move together
  * with those of i (i itself, if it is its own image turned round), *sign times; -1: none has to. */
 int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign);
