@@ -16,11 +16,7 @@
  *
  *     gq_j  += c (E_s s_j + E_sd s_j.) - g E sum_i y_i s_ij,    gqd_j += c E_sd s_j
  *
- * Time enters through one factor a device, which is told: its window times its profile (told.c).
- *
- * Reading order: devices.h, law.c, path.h, path.c, devices.c; told.h, told.c;
- * mirror_devices.c, device_check.c; what hands hold: hand_motion.h, hand_motion.c, holds.h,
- * holds.c, hold_check.c.
+ * Time enters through one factor a device, its window times its profile (load_profile.c).
  */
 #ifndef AMBULO_CONTACT_DEVICES_H
 #define AMBULO_CONTACT_DEVICES_H
