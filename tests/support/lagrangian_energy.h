@@ -1,5 +1,5 @@
-/* support/lagrangian_energy.h - energies from the matrices that the reference recursion leaves in its
- * scratch:
+/* support/lagrangian_energy.h - energies from the matrices that the reference recursion leaves in
+ * its scratch:
  *
  *     T = sum tr(B J B^T) / 2,  V = -sum m g . c                                        (E)
  */
