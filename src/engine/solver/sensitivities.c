@@ -9,47 +9,9 @@
 
 /* ---------------------------------------------------------------------- words */
 
-#define DEGREE 0.017453292519943295
-
-/* a change that a person can picture, in the unit of the quantity (of a ratio: share of the value),
- * and in words */
-static const struct {
-  double step;
-  const char *more;
-} changes[] = {
-    [AMBULO__STEP_LENGTH] = {0.01, "1 cm more"},
-    [AMBULO__SHORT_LENGTH] = {0.001, "1 mm more"},
-    [AMBULO__ANGLE] = {DEGREE, "1 degree more"},
-    [AMBULO__SMALL_ANGLE] = {0.1 * DEGREE, "0.1 degrees more"},
-    [AMBULO__TIME] = {0.01, "10 ms more"},
-    [AMBULO__SPEED] = {0.1, "0.1 m/s more"},
-    [AMBULO__TURNING_SPEED] = {0.1, "0.1 rad/s more"},
-    [AMBULO__MASS] = {1.0, "1 kg more"},
-    [AMBULO__TORQUE] = {1.0, "1 N m more"},
-    [AMBULO__FORCE] = {10.0, "10 N more"},
-    [AMBULO__BODY_WEIGHT] = {0.01, "0.01 body weights more"},
-    [AMBULO__TURNING_JOLT] = {1.0, "1 rad/s^2 more"},
-    [AMBULO__JOLT] = {0.1, "0.1 m/s^2 more"},
-    [AMBULO__LOADING_RATE] = {1.0, "1 body weight/s more"},
-    [AMBULO__STRIDE_SHARE] = {0.01, "1 % of the stride later"},
-    [AMBULO__EVENT_TIME] = {0.01, "10 ms later"},
-    [AMBULO__TURNING_STIFF] = {1.0, "1 N m/rad more"},
-    [AMBULO__STIFF] = {10.0, "10 N/m more"},
-    [AMBULO__RATIO] = {0.01, "1 % more"},
-};
-
-static int is_relative(const ambulo__parameter *p) {
-  return p->quantity == AMBULO__RATIO && p->value != 0.0;
-}
-
-double ambulo__parameter_step(const ambulo__parameter *p) {
-  return changes[p->quantity].step * (is_relative(p) ? fabs(p->value) : 1.0);
-}
-
 static void say(ambulo__parameter *p, double objective) {
-  int is_share = p->quantity == AMBULO__RATIO && !is_relative(p);
+  const char *more = ambulo__parameter_more(p);
   p->step = ambulo__parameter_step(p);
-  const char *more = is_share ? "0.01 more" : changes[p->quantity].more;
   double change = p->derivative * p->step;
   p->share = objective > 0.0 ? change / objective : (double)NAN;
   if (!isfinite(p->share)) {
@@ -125,6 +87,22 @@ static ambulo_status fill(const ambulo__parameters *p, sensitivity_block *block)
   block->list.items = block->items;
   block->list.count = p->count;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo__parameters_init(const ambulo_problem *problem,
+                                      const ambulo_allocator *allocator, ambulo__parameters *p) {
+  *p = (ambulo__parameters){.allocator = ambulo__allocator_or_default(allocator),
+                            .problem = problem};
+  ambulo_status status = ambulo__variant_init(problem, &p->allocator, &p->variant);
+  if (status) return status;
+  ambulo__parameters_of_walk(p);
+  ambulo__parameters_of_body(p);
+  ambulo__parameters_of_devices(p);
+  ambulo__parameters_of_holds(p);
+  ambulo__parameters_of_terms(p);
+  ambulo__parameters_of_task(p);
+  ambulo__parameters_of_limits(p);
+  return p->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
 /* those of these names alone */

@@ -128,7 +128,8 @@ ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
 
 /* Steps, shares and words; the largest share comes first. */
 void ambulo__parameters_say(ambulo__parameters *parameters, double objective);
-/* The change that a person can picture, in unit. */
+/* parameters.c: the change that a person can picture, in unit, and in words. */
 double ambulo__parameter_step(const ambulo__parameter *parameter);
+const char *ambulo__parameter_more(const ambulo__parameter *parameter);
 
 #endif
