@@ -2,7 +2,7 @@
 # lint_words.sh [PAGE...]: the prose of the pages is short and plain.
 #
 #   - no sentence has more than 40 words;
-#   - neither a page nor a shipped file has a phrase of the list below.
+#   - no page, shipped file or source has a phrase of the list below.
 #
 # Prose is what is left without code blocks, tables, headings, pictures and lines of YAML heads. Each
 # paragraph and each item of a list stands by itself. Words in `code` count, a link counts as its text. A sentence ends at . ! or ? before a blank and a capital, a quote or code, or
@@ -21,7 +21,7 @@ goes on from
 of which nothing
 nothing good
 want of memory
-has all of it
+has all of it but
 wide berth
 is no error
 is no way
@@ -41,8 +41,7 @@ what stands around
 of its own accord
 without a word
 is borne
-bearer
-in the stead'
+bearer'
 
 prose='
 function flush(    text, words, w, size, part) {
@@ -122,5 +121,6 @@ while IFS= read -r hit; do
   bad=1
 done < <(for page in "${pages[@]}" models/*.yaml; do
   sed 's/`[^`]*`/Code/g' "$page" | grep -nEi -f <(echo "$banned") | cut -c1-140 | sed "s#^#$page:#"
-done)
+done
+grep -rnEi -f <(echo "$banned") src include --include='*.[ch]' --include='*.py' | cut -c1-140)
 exit $bad

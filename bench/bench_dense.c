@@ -1,4 +1,4 @@
-/* bench/bench_dense.c - what happens between the nodes, and whether what is foretold comes true.
+/* bench/bench_dense.c - what happens between the nodes, and whether what is predicted comes true.
  *
  * 1. For each shipped problem that fails between its nodes: the worst of each family with the
  *    intervals of the file, twice and four times as many time intervals; once with the
@@ -98,7 +98,7 @@ static int split(char *settings, const char *overrides[MOST_SETTINGS]) {
   return count;
 }
 
-/* number of families that were foretold to hold with these settings, and do not */
+/* number of families that were predicted to hold with these settings, and do not */
 static int try(const char *name, const ambulo_result *before, const char *settings) {
   char text[TEXT];
   const char *overrides[MOST_SETTINGS];
@@ -155,6 +155,6 @@ int main(void) {
   }
   printf("\nwhat helps\n");
   for (int i = 0; i < PROBLEMS; i++) failed += cures(problems[i]);
-  printf("%d not as foretold\n", failed);
+  printf("%d not as predicted\n", failed);
   return failed > 0;
 }

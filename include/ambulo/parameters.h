@@ -15,7 +15,7 @@
  *     dF/dp = (df*_dp - F dD/dp) / D
  *
  * p is a local minimum of F within the bounds, in the valley of the motions that the start leads
- * to. Values of p at which the inner solve finds no optimal motion are given up (while none was
+ * to. Values of p at which the inner solve finds no optimal motion are rejected (while none was
  * found yet: no motion that holds), and the run goes on between them and the best.
  */
 #ifndef AMBULO_PARAMETERS_H
@@ -101,7 +101,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_parameters(
     ambulo_diagnostics *diagnostics, ambulo_problem **best, ambulo_result **result);
 
 /* ambulo_solve, and again on finer grids, each started from the last motion, until it holds between
- * the nodes too (ambulo_dense_audit), or nothing better is foretold. *finer is the problem on the
+ * the nodes too (ambulo_dense_audit), or nothing better is predicted. *finer is the problem on the
  * last grid, to be freed by the caller after *result and before `problem`, whose model it shares;
  * NULL where the problem's own grid was enough. options.time_limit is that of all of it. Errors:
  * those of ambulo_solve. */
@@ -133,7 +133,7 @@ typedef struct ambulo_parameters_outcome {
   double distance;         /* D at the best values, m; 1 with AMBULO_PER_NONE */
   double objective, first; /* F at the best values, and where the run began */
   int solves;              /* inner solves */
-  int failed;              /* of those: values that were given up */
+  int failed;              /* of those: values that were rejected */
   int evaluations;         /* of all of them together */
   int converged;           /* 1: dF/dp is small, or points out of the bounds; or F settled */
   double seconds;

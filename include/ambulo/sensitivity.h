@@ -58,7 +58,7 @@ typedef struct ambulo_sensitivity {
                         where both sides have to be alike, that of the other side; of a foothold
                         those of the foot's other contacts on it; of a time those of all contacts
                         that begin or end then; "" for none */
-  double with_sign;  /* ... by so many times as much: 1 or -1; 0 for none */
+  double with_sign;  /* ... with this factor: 1 or -1; 0 for none */
   const char *label; /* in words: "step length" */
   const char *unit;  /* SI and rad, also where a file has degrees; "" for weights, scales,
                         phases */

@@ -103,7 +103,7 @@ typedef struct ambulo_options {
   int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:
                  auto`; without effect in ambulo_solve */
   int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as
-                 fine, the same in every run, of which the best is gone on from
+                 fine, the same in every run; the solve continues from the best
                  (ambulo_result_starts); without effect where the caller gives a start */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
@@ -199,7 +199,7 @@ typedef struct ambulo_dense_family {
   double tolerance;           /* in violation.unit */
   int holds;                  /* 1: violation.worst <= tolerance */
   const char *settings;       /* what brings it under its tolerance, as arguments of `ambulo solve`:
-                                 "--set time.intervals=163"; foretold, except that limits on control
+                                 "--set time.intervals=163"; predicted, except that limits on control
                                  points hold for certain. "": nothing known does, or it holds */
   const char *advice; /* in words; "" where it holds, and for points that are no solutions */
 } ambulo_dense_family;
@@ -209,7 +209,7 @@ typedef struct ambulo_dense_audit {
   const ambulo_dense_family *families;
   int family_count; /* worst first, relative to the tolerance */
   int failing;      /* how many do not hold */
-  /* time.intervals and trajectory.intervals that are foretold to bring all families with these
+  /* time.intervals and trajectory.intervals that are predicted to bring all families with these
    * `settings` under their tolerances at once; 0: none */
   int intervals, spline_intervals;
   const char *const *lines; /* one for each family that fails, when the verdict is optimal or
@@ -338,7 +338,7 @@ typedef struct ambulo_basin {
 typedef struct ambulo_starts {
   int count, solved;          /* starts tried; that ended at a motion which holds every row */
   int intervals;              /* of the coarse grid */
-  const ambulo_basin *basins; /* [basin_count], the cheapest, which is gone on from, first */
+  const ambulo_basin *basins; /* [basin_count], the best, from which the solve continues, first */
   int basin_count;
 } ambulo_starts;
 /* NULL for one start. */

@@ -5,7 +5,7 @@
  * through chains for joints of several coordinates; points of feet and mirror images are found on
  * it; a writer prints it. SI units and radians. All texts and lists are the arena's.
  *
- * What could not be carried over is a note: it is told to the caller and stands in the file. */
+ * What could not be carried over is a note: it is reported to the caller and stands in the file. */
 #ifndef AMBULO_EXCHANGE_BODY_TREE_H
 #define AMBULO_EXCHANGE_BODY_TREE_H
 
@@ -105,7 +105,7 @@ int ambulo__tree_add(ambulo__tree *tree, const char *name, int parent, ambulo_jo
 /* Checks mass and inertia, which stand at these nodes, and adds the body to a link's. */
 void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
                        const ambulo__xml_node *mass, const ambulo__xml_node *inertia);
-/* x >= 0 to three digits, for what is told. */
+/* x >= 0 to three digits, for notes. */
 ambulo__number ambulo__three_digits(double x);
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid);
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]);

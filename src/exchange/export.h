@@ -175,7 +175,7 @@ int ambulo__has_loads(const ambulo_problem *problem);
 
 /* Fills *loads, which ambulo__loads_free releases, and takes off source->tau what those do that
  * inverse dynamics knew nothing of. `problem`: NULL, or one whose body the bodies are. What the
- * motion has and cannot be carried over is told. Errors: E_MEMORY. */
+ * motion has and cannot be carried over is reported. Errors: E_MEMORY. */
 ambulo_status ambulo__loads_create(const ambulo__bodies *bodies, const ambulo_problem *problem,
                                    ambulo__source *source, ambulo_diagnostics *diagnostics,
                                    ambulo__loads *loads);

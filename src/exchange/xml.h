@@ -31,7 +31,7 @@ void ambulo__arena_free(ambulo__arena *arena); /* accepts a zero-filled one */
 void *ambulo__arena_take(ambulo__arena *arena, size_t count, size_t size);
 /* Copy of text[0..length) with a NUL. */
 char *ambulo__arena_copy(ambulo__arena *arena, const char *text, size_t length);
-/* printf; "" for want of memory, never NULL. */
+/* printf; "" without memory, never NULL. */
 const char *ambulo__arena_print(ambulo__arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 const char *ambulo__arena_vprint(ambulo__arena *arena, const char *format, va_list arguments)

@@ -31,7 +31,7 @@ typedef struct ambulo__inverse {
 } ambulo__inverse;
 
 /* Reads the motion (inverse_motion.c): given, rows, q, qd, qdd and what the file has; filters.
- * Doubts about units, rates and the body are told on the way. Errors: those of ambulo__motion_read,
+ * Doubts about units, rates and the body are warnings. Errors: those of ambulo__motion_read,
  * E_SCHEMA, E_NUMERIC, E_MEMORY. */
 ambulo_status ambulo__inverse_read(ambulo__inverse *v);
 

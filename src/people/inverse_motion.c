@@ -48,7 +48,7 @@ static ambulo_status take_column(ambulo__inverse *v, int i, ambulo__motion_order
   return status;
 }
 
-/* every fault of the columns is told before the first one is returned */
+/* every fault of the columns is reported before the first one is returned */
 static ambulo_status take_columns(ambulo__inverse *v) {
   ambulo_status first = AMBULO_OK;
   int degrees = in_degrees(v);

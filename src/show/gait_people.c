@@ -43,8 +43,8 @@ int ambulo__gait_is_walk(const ambulo_problem *problem) {
 
 /* ------------------------------------------------------------------- strikes */
 
-/* by the foot's name, as strikes are told apart in summary.json; else where it stands, beside the
- * other: feet of a planar body stand in one line */
+/* by the foot's name, as strikes are distinguished in summary.json; else where it stands, beside
+ * the other: feet of a planar body stand in one line */
 static ambulo__side side_of(const ambulo_model *model, int foot) {
   const char *name = model->feet[foot].name;
   double here[3], there[3];

@@ -184,7 +184,7 @@ void ambulo__scene_worn(ambulo__json *json, const ambulo__stride *s, ambulo__sce
   ambulo__json_open(json, "worn", '[');
   for (int i = 0; i < ambulo__worn_count(s); i++) {
     ambulo__worn mark;
-    (void)ambulo__worn_at(s, 0, i, &mark); /* devices that rest are told by their effort */
+    (void)ambulo__worn_at(s, 0, i, &mark); /* an idle device has no effort */
     ambulo__json_open(json, NULL, '{');
     ambulo__json_text(json, "kind", i < s->devices ? "device" : "load");
     ambulo__json_integer(json, "from", ambulo__scene_body_point(body, mark.link[0], mark.at[0]));

@@ -367,5 +367,5 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   versions(json);
   ambulo__json_hash(json, "input_hash", ambulo_problem_hash(problem));
   ambulo__json_close(json, '}');
-  if (status) text->failed = 1; /* want of memory is all that can go wrong */
+  if (status) text->failed = 1; /* only an allocation can fail */
 }

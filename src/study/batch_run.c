@@ -245,7 +245,7 @@ static void supervise(ambulo__supervisor *batch) {
     if (batch->status && stop < 1) stop = 1;
     if (batch->progress.running == 0 && (stop || batch->progress.done >= batch->progress.cases))
       break;
-    if (batch->progress.running == 0 && ambulo__queue_next(batch) < 0) break; /* given up */
+    if (batch->progress.running == 0 && ambulo__queue_next(batch) < 0) break; /* abandoned */
     if (batch->progress.running == 0) batch->cursor = 0;
     if (stop && stopped == 0.0) stopped = ambulo__seconds_now();
     int late = stop && ambulo__seconds_now() - stopped > batch->options.grace;

@@ -119,7 +119,7 @@ static ambulo_status run_list(runner *r, int *fresh) {
   return status;
 }
 
-/* *ended = 1: nothing is left to ask for; 0: stopped, or a case is given up */
+/* *ended = 1: nothing is left to ask for; 0: stopped, or a case is abandoned */
 static ambulo_status replay(runner *r, ambulo__front_request *requests, int *ended) {
   ambulo_status status = AMBULO_OK;
   int count = 1, fresh = 0;

@@ -77,7 +77,7 @@ ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *na
   char *path = NULL, *text = NULL;
   size_t length = 0;
   int yes = 0;
-  /* as the reader of problems finds it, without a word: it may be no file at all */
+  /* as the reader of problems finds it, silently: it may be no file at all */
   ambulo_status status = ambulo__named_file(
       &sweep->allocator, sweep->base ? sweep->base : sweep->path, name, nowhere, NULL, &path);
   if (!status) status = is_file(sweep, path, &yes);

@@ -56,7 +56,7 @@ static void try_at(const char *name, call function, long k, int only_once, int *
   }
   assert_true(right);
   assert_int_equal(memory.live, 0);
-  /* and nothing that may only come of it is told beside */
+  /* and nothing that only follows from it is reported */
   for (size_t i = 0; i < ambulo_diagnostics_count(list); i++) {
     const ambulo_diagnostic *one = ambulo_diagnostics_get(list, i);
     if (one->severity != AMBULO_ERROR || one->status == AMBULO_E_MEMORY) continue;

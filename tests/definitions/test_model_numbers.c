@@ -172,7 +172,7 @@ static void bad_subjects(void **state) {
             "t.yaml:6:16: error[E_SCHEMA]: got 'none'; expected one of: female, male");
 }
 
-/* scaling a model in metres and kilograms would do nothing: the caller is told */
+/* scaling a model in metres and kilograms would do nothing: the caller is warned */
 static void unused_subject(void **state) {
   (void)state;
   ambulo_subject subject = {.size = sizeof(ambulo_subject), .mass = 60, .stature = 1.6};

@@ -93,7 +93,7 @@ static void values_are_the_formula(void **state) {
   engine_close(&f);
 }
 
-/* a value, a gradient, a whitened gradient that is not finite: the point is given up */
+/* a value, a gradient, a whitened gradient that is not finite: the point is rejected */
 static void what_is_not_finite_is_given_up(void **state) {
   (void)state;
   for (int run = 0; run < 3; run++) {

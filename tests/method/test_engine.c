@@ -85,7 +85,7 @@ static void linear_objectives_have_a_scale(void **state) {
   assert_close(product[1], product[0], 1e-9 * product[0]);
 }
 
-/* mu on the diagonal, and of each element what rounding makes of it: relative to that element */
+/* mu on the diagonal, and rounding of each element: relative to that element */
 static void the_metric_is_clear_of_rounding(void **state) {
   (void)state;
   engine_fixture f;

@@ -240,7 +240,7 @@ static void gradients_are_as_exact_as_asked(void **state) {
   for (int j = 0; j < f.n; j++) f.x[j] += t * e->quadratic->total[j];
   assert_int_equal(ambulo__retract(e, f.x), 1);
   e->retraction->adjoint_tolerance = 1e-12;
-  for (int k = 0; k < 6; k++) /* each goes on from the last */
+  for (int k = 0; k < 6; k++) /* each continues from the last */
     assert_int_equal(ambulo__reduced_gradient(e, e->setup->objective_scale, e->iterate.lambda,
                                               e->iterate.equality_multiplier, exact),
                      AMBULO_OK);

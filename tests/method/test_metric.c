@@ -31,7 +31,7 @@ static double mixed(void *user, const ambulo_node_state *s, ambulo_node_gradient
   return 0.3 + s->tau[1] - 2.0 * s->qd[0] + s->points[1];
 }
 
-/* 1.5 tau_0^2, of whose shape nothing is told */
+/* 1.5 tau_0^2, of unknown shape */
 static double bowl(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
   (void)user;
   if (g) g->tau[0] += 3.0 * s->tau[0];

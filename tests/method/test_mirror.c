@@ -67,7 +67,7 @@ static void rows(unsigned m, double *c, unsigned n, const double *x, double *gra
 }
 
 /* what the mirror says of the augmented Lagrangian, in NLopt's order */
-static double foretold(watched *w, const double *x, double *gradient) {
+static double predicted(watched *w, const double *x, double *gradient) {
   double c[ROWS], slope[ROWS * N], rho = w->mirror.penalty;
   double value = objective_at(x, gradient);
   rows_at(x, c);
@@ -96,7 +96,7 @@ static void compare_step(watched *w, const double *x, const double *gradient) {
 
 static double listen(unsigned n, const double *x, double *gradient, void *data) {
   watched *w = data;
-  double want[N], value = w->inner(n, x, gradient, w->data), own = foretold(w, x, want);
+  double want[N], value = w->inner(n, x, gradient, w->data), own = predicted(w, x, want);
   w->inner_calls++;
   w->worst_value = fmax(w->worst_value, fabs(value / own - 1.0));
   if (!gradient) return value;

@@ -56,11 +56,11 @@ static void polish_is_not_to_cost_more(void **state) {
     f.options.feasibility_tolerance = 1e-3;
     assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
     f.options.feasibility_tolerance = 1e-8;
-    double foretold = 0.0;
+    double predicted = 0.0;
     const ambulo__trial *reached = &f.engine->reached;
     for (int i = 0; i < f.engine->setup->inequalities; i++)
-      foretold += reached->multiplier[i] * fabs(reached->excess[i]);
-    f.engine->reached.objective -= 6.0 * foretold + 2e-5 * fabs(reached->objective);
+      predicted += reached->multiplier[i] * fabs(reached->excess[i]);
+    f.engine->reached.objective -= 6.0 * predicted + 2e-5 * fabs(reached->objective);
     assert_int_equal(ambulo__polish(f.engine, anyhow, f.x), anyhow);
     engine_close(&f);
   }

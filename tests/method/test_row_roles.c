@@ -1,4 +1,4 @@
-/* Dependent rows are found and named; contradictions are told from copies. */
+/* Dependent rows are found and named; contradictions are distinguished from copies. */
 #include "support/arm.h"
 #include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
@@ -121,7 +121,7 @@ static void independent_rows_stay(void **state) {
   assert_int_equal(ranks_of(ends, 2, &straight, &last, NULL), 0);
 }
 
-/* of what contradicts itself at every node five are told */
+/* of contradictions at every node five are reported */
 static void the_first_contradictions_are_told(void **state) {
   (void)state;
   double reference[4] = {0.0}, width[2] = {0.0, INFINITY};

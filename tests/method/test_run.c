@@ -132,7 +132,7 @@ static void faults_are_remembered(void **state) {
   assert_int_equal(run.faults_lately, 2);
 }
 
-/* The way of a solve in bounded memory: what is left of any number of iterations is told by the
+/* The way of a solve in bounded memory: what is left of any number of iterations is reported by the
  * header, and by nothing else. */
 
 static ambulo_iteration iteration(int number, int intervals) {

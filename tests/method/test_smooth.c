@@ -277,7 +277,7 @@ static void rates_have_their_own_size(void **state) {
   engine_close(&f);
 }
 
-/* a start that cannot be weighed for want of memory is no start that stays */
+/* a start that cannot be weighed without memory does not stay */
 static void memory_that_is_out_is_told(void **state) {
   (void)state;
   started s;

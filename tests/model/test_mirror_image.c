@@ -1,4 +1,4 @@
-/* Random bodies that are their own mirror image are told so, whatever their frames; one number
+/* Random bodies that are their own mirror image are recognized, whatever their frames; one number
  * changed is found, with the name of what it moved. What "is its own mirror image" means is asked
  * of the dynamics: mirrored states have mirrored torques. */
 #include "mechanics/lagrangian.h"

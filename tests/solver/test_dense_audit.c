@@ -180,7 +180,7 @@ static void a_feasible_motion_is_told_too(void **state) {
   ambulo_problem_free(p);
 }
 
-static void without_time_nothing_is_foretold(void **state) {
+static void without_time_nothing_is_predicted(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("support/walk_rigid");
   ambulo_result *r = result_of(p, 0.0);
@@ -305,7 +305,7 @@ int main(void) {
       cmocka_unit_test(a_motion_that_overflows_is_named),
       cmocka_unit_test(what_is_not_finite_comes_first),
       cmocka_unit_test(a_feasible_motion_is_told_too),
-      cmocka_unit_test(without_time_nothing_is_foretold),
+      cmocka_unit_test(without_time_nothing_is_predicted),
       cmocka_unit_test(a_grid_that_cannot_be_is_not_a_motion_that_holds),
       cmocka_unit_test(a_refusal_between_the_nodes_is_told),
       cmocka_unit_test(the_sentence_names_a_family_once),

@@ -1,4 +1,4 @@
-/* What is foretold comes true: problems are solved again with the settings that the audit names.
+/* What is predicted comes true: problems are solved again with the settings that the audit names.
  * (bench/bench_dense.c does the same for every shipped problem.) */
 #include "support/problem_path.h"
 #include "ambulo/tools/load.h"
@@ -152,7 +152,7 @@ static int intervals_named(int intervals, double event) {
   return cure.intervals;
 }
 
-static void gaps_to_come_are_foretold_from_the_motion(void **state) {
+static void gaps_to_come_are_predicted_from_the_motion(void **state) {
   (void)state;
   const double toe_off = 0.24 * 0.55, foot_flat = 0.16 * 0.55, longest = 0.0007 / 0.4;
   /* toe-off on a node: the interval before it is free, and its slip is there to be seen */
@@ -310,7 +310,7 @@ static void equations_of_either_kind_are_strict(void **state) {
 
 /* moved by half an interval, the toes of one foot would have to carry the body at a time that is
  * looked at: there is no such motion, and what was measured at the nodes has to do */
-static void motions_that_cannot_be_moved_are_foretold_from_the_nodes(void **state) {
+static void motions_that_cannot_be_moved_are_predicted_from_the_nodes(void **state) {
   (void)state;
   static const char *const overrides[] = {"constraints.zmp=hull", "gait.phases.heel_strike=0",
                                           "gait.phases.heel_off=0.49", "gait.phases.toe_off=0.6",
@@ -336,7 +336,7 @@ static void motions_that_cannot_be_moved_are_foretold_from_the_nodes(void **stat
   ambulo_problem_free(p);
 }
 
-/* breakpoints of the caller's own would have to be new ones: nothing is foretold then */
+/* breakpoints of the caller's own would have to be new ones: nothing is predicted then */
 static void given_breakpoints_are_left_alone(void **state) {
   (void)state;
   dense_fixture f;
@@ -378,14 +378,14 @@ int main(void) {
       cmocka_unit_test(contacts_that_are_equations_have_three_cures),
       cmocka_unit_test(no_failure_is_left_without_a_word),
       cmocka_unit_test(the_number_named_has_nodes_where_they_count),
-      cmocka_unit_test(gaps_to_come_are_foretold_from_the_motion),
+      cmocka_unit_test(gaps_to_come_are_predicted_from_the_motion),
       cmocka_unit_test(between_nodes_the_order_says_how_many),
       cmocka_unit_test(beside_an_event_the_gap_says_how_many),
       cmocka_unit_test(fine_grids_are_made_finer_still),
       cmocka_unit_test(a_number_suffices_for_all_at_once),
       cmocka_unit_test(what_asks_for_most_is_left_out),
       cmocka_unit_test(equations_of_either_kind_are_strict),
-      cmocka_unit_test(motions_that_cannot_be_moved_are_foretold_from_the_nodes),
+      cmocka_unit_test(motions_that_cannot_be_moved_are_predicted_from_the_nodes),
       cmocka_unit_test(given_breakpoints_are_left_alone),
       cmocka_unit_test(grids_keep_their_proportion_where_contacts_are_equations),
   };

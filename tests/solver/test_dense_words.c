@@ -1,4 +1,4 @@
-/* What a dense audit says about each family that fails: the settings that are foretold to help,
+/* What a dense audit says about each family that fails: the settings that are predicted to help,
  * the remedy where more intervals do not, and one sentence that has everything once. The audits
  * are written down here, not measured. */
 #include "solver/dense_audit.h"
@@ -132,11 +132,11 @@ static void too_far_off_is_no_cannot(void **state) {
   tell(t, &t->cure);
   assert_string_equal(t->report.family[0].settings, "");
   has(t->report.family[0].advice,
-      "too far off on a grid this coarse to foretell how many intervals it takes; look again with "
+      "too far off on a grid this coarse to predict how many intervals it takes; look again with "
       "--set time.intervals=48 --set trajectory.intervals=36");
   assert_string_equal(t->report.summary,
                       "optimal at the nodes, not between them; slip: too far off on a grid this "
-                      "coarse to foretell how many intervals it takes; clearance: more intervals "
+                      "coarse to predict how many intervals it takes; clearance: more intervals "
                       "do not help");
   close_told(t);
 }
@@ -192,7 +192,7 @@ static void the_sentence_groups_by_cure(void **state) {
   assert_string_equal(t->report.summary,
                       "optimal at the nodes, not between them; contact, pressure: again with --set "
                       "time.intervals=50; clearance: more intervals do not help; slip: too far off "
-                      "on a grid this coarse to foretell how many intervals it takes");
+                      "on a grid this coarse to predict how many intervals it takes");
   t->cure.cured[t->report.family_rule[3]] = 0;
   tell(t, &t->cure);
   has(t->report.summary, "; contact, pressure: again with --set time.intervals=50; clearance, "
@@ -210,7 +210,7 @@ static void a_motion_that_holds_says_nothing(void **state) {
   tell(t, NULL);
   assert_int_equal(t->report.view.line_count, 1);
   assert_string_equal(t->report.family[0].advice,
-                      "no time was left to foretell how many intervals it takes");
+                      "no time was left to predict how many intervals it takes");
   t->report.family[0].holds = 1;
   t->report.view.failing = 0;
   tell(t, &t->cure);

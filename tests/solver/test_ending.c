@@ -212,7 +212,7 @@ static void faults_end_what_gave_up(void **state) {
   assert_int_equal(run.ending, AMBULO_ENDING_CONVERGED);
 }
 
-/* the last one explains a failure, the first one is told of a success */
+/* the last one explains a failure, the first one is reported for a success */
 static void faults_are_reported(void **state) {
   (void)state;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
@@ -222,7 +222,7 @@ static void faults_are_reported(void **state) {
   run.fault = (ambulo_fault){.kind = AMBULO_FAULT_TERM, .name = "last", .value = NAN};
   ambulo__report_faults(&run, &r, list);
   assert_message(list, 0,
-                 "1 of 40 points were given up; at the first the value of objective term "
+                 "1 of 40 points were rejected; at the first the value of objective term "
                  "'first'");
   assert_int_equal(r.audit.fault.kind, AMBULO_FAULT_NONE);
   r.verdict = AMBULO_NUMERIC_FAILURE;

@@ -198,7 +198,7 @@ static void the_travel_that_can_be_reached_is_named(void **state) {
 }
 
 /* mirrored ends: the right knee may rest on the limit of the left one, the pelvis on one that it
- * comes to a step later; the model's numbers are told, not what is left of them */
+ * comes to a step later; the model's numbers are reported, not what is left of them */
 static void a_limit_of_the_mirrored_half_is_named(void **state) {
   (void)state;
   static const char *const overrides[] = {"model.links[shank_l].coordinate.range=[0, 10]",

@@ -167,7 +167,7 @@ static void curvature_that_is_not_finite(void **state) {
 
 /* Values that are not finite at trial points alone: a wall that the solve turns back from. The
  * optimum lies this side of it, so that `optimal` is the truth, and it is said that points were
- * given up. */
+ * rejected. */
 static double walled(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
   double room = 30.0 - fabs(state->tau[0]);
   (void)user;
@@ -193,8 +193,8 @@ static void walls_are_turned_back_from(void **state) {
   outcome o = solve(s.f.problem, 0);
   assert_int_equal(o.status, AMBULO_OK);
   assert_int_equal(o.verdict, AMBULO_OPTIMAL);
-  int given_up = strstr(o.text, "given up") != NULL;
-  if (given_up) assert_non_null(strstr(o.text, "mine"));
+  int rejected = strstr(o.text, "rejected") != NULL;
+  if (rejected) assert_non_null(strstr(o.text, "mine"));
   free(o.x);
   fixture_close(&s.f);
 }

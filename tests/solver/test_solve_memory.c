@@ -155,7 +155,7 @@ static void workspaces_are_predicted(void **state) {
   ambulo_problem_free(problem);
 }
 
-/* who runs out of memory is told how much it takes */
+/* the message of a lack of memory says how much it takes */
 static void lack_of_memory_tells_the_figure(void **state) {
   (void)state;
   fail_alloc memory = fail_alloc_at(20);

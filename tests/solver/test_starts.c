@@ -1,4 +1,4 @@
-/* Several starts: the same in every run, counted by valley, the best gone on from. */
+/* Several starts: the same in every run, counted by valley; the solve continues from the best. */
 #include "solver/starts.h"
 #include "ambulo/tools/load.h"
 #include "solver/result.h"

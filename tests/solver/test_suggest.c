@@ -234,7 +234,7 @@ static void one_tube_is_widened(void **state) {
   ambulo_problem_free(p);
 }
 
-/* rows of the family that have to give way too are told, one by name */
+/* rows of the family that must be relaxed too are reported, one by name */
 static void others_are_mentioned(void **state) {
   (void)state;
   static const char *const phrases[3] = {NULL, "; likewise knee_angle_r upper by 0.05 rad",

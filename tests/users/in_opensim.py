@@ -2,7 +2,7 @@
 
 Arguments: the OpenSim model, the result folder (of `ambulo solve --samples 161`, the times of its
 scene.json), and how far apart the centres of mass may be, m. Heights of heels and toes of OpenSim's
-model are told besides. Prints "N passed, N failed".
+model are reported too. Prints "N passed, N failed".
 """
 
 import json

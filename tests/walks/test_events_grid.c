@@ -1,5 +1,5 @@
 /* Grids on events: f* is a smooth function of the event times, contacts hold up to them, and what
- * is foretold about finer grids comes true. */
+ * is predicted about finer grids comes true. */
 #include "support/problem_path.h"
 #include "support/test.h"
 
@@ -160,7 +160,7 @@ static void gradients_are_exact(void **state) {
   }
 }
 
-static void what_is_foretold_comes_true(void **state) {
+static void what_is_predicted_comes_true(void **state) {
   (void)state;
   const char *settings[] = {"time.grid=events", "trajectory.knots=events", "trajectory.degree=4",
                             "trajectory.intervals=12", "time.intervals=25"};
@@ -186,7 +186,7 @@ int main(void) {
       cmocka_unit_test(the_best_is_smooth_in_an_event_time),
       cmocka_unit_test(contacts_hold_up_to_their_events),
       cmocka_unit_test(gradients_are_exact),
-      cmocka_unit_test(what_is_foretold_comes_true),
+      cmocka_unit_test(what_is_predicted_comes_true),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,7 +81,7 @@ static void set_stored(ambulo__local_plan *local, int count) {
   }
 }
 
-/* Who goes on from registers, and who reads what the parent has stored. */
+/* Who continues from registers, and who reads what the parent has stored. */
 static void set_forks(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
   for (int k = 0; k < plan->coordinates; k++) {
@@ -244,7 +244,7 @@ static void add_carrier(ambulo__local_plan *local, ambulo__local_step *step, int
   if (!slides) step->keeps |= ambulo__shows_origin;
 }
 
-/* The path of the joints that carry these contacts: it goes on from the last one that carries them
+/* The path of the joints that carry these contacts: it continues the last one that carries them
  * and more. */
 static void add_path(const ambulo__plan *plan, ambulo__local_plan *local, int contacts) {
   int path = local->path_count++, above = path - 1;

@@ -171,7 +171,7 @@ typedef struct ambulo__pivot {
 /* Joints, from the root on, that carry the same contacts and whose tau does not vanish. */
 typedef struct ambulo__path {
   int contacts;      /* a bit each */
-  int above;         /* the path that it goes on from, which carries more; -1: none */
+  int above;         /* the path that it continues, which carries more; -1: none */
   int first_carrier; /* up to those of the next path */
   int first_pivot;
 } ambulo__path;

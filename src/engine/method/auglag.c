@@ -13,7 +13,7 @@
  *
  * F is augmented.c's. What is ours:
  *
- *   variables  w is a chart of the surface (augmented.h), laid anew after each inner solve around
+ *   variables  w is a chart of the surface (augmented.h), laid again after each inner solve around
  * the point where it ended: the metric there, whose rows with a force are those that the model step
  * foresees. NLopt's point does not move by that, and its L-BFGS starts afresh at every inner solve.
  *   gradients  where NLopt asks for gradients one row stands for all that have a force, or each has
@@ -28,8 +28,8 @@
  *   ending     pipeline.h, by nlopt_force_stop.
  *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
- * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
- * row is violated, with 10 where none is and f > 0: S makes R of it.
+ * the phases are distinguished. It starts with rho = 1e-6 where the constant makes its f zero and
+ * some row is violated, with 10 where none is and f > 0: S makes R of it.
  */
 #include "method/pipeline.h"
 #include "method/augmented.h"
@@ -96,7 +96,7 @@ static ambulo_ending lay_chart(drive *s, const double *w) {
   return AMBULO_ENDING_NONE;
 }
 
-/* how well the model foretold the descent says whether it is damped too much */
+/* how well the model predicted the descent says whether it is damped too much */
 static void update_damping(drive *s, double reached) {
   double *mu = &s->engine->iterate.mu;
   double promised = fmin(s->predicted, -1e-14);
@@ -369,7 +369,7 @@ static ambulo_status create(drive *s, ambulo__pool *pool) {
 
 /* Calls until something ends it. One more follows a call that NLopt ended by a test of its own,
  * since all rows hold without a multiplier; or whose line search found nothing after at least one
- * inner solve, for which the chart is laid anew. */
+ * inner solve, for which the chart is laid again. */
 static ambulo_status run(drive *s) {
   ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {
@@ -379,7 +379,7 @@ static ambulo_status run(drive *s) {
     int result = call(s);
     if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
     if (is_over(s) || (result >= 0 && s->mirror.measure == 0.0)) continue;
-    /* of its own accord only where the mirror says so: else it is no mirror */
+    /* by a test of its own only if the mirror agrees; else the mirror is wrong */
     if (result >= 0 || r->nlopt.outer == before) s->ending = AMBULO_ENDING_NLOPT;
   }
   return AMBULO_OK;

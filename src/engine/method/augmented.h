@@ -28,7 +28,7 @@ double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradie
  *
  * x_k the iterate (an earlier point), w_k what NLopt calls it, R the retraction onto the equalities
  * (equalities.c), L L' the metric of the model step at x_k, t > 0 a factor. w_k stays x_k when the
- * chart is laid anew, so NLopt's own point does not jump.
+ * chart is laid again, so NLopt's own point does not jump.
  *
  * s = L' d with d the model step, g the gradient of F in whitened coordinates at x_k. The factor
  * with

@@ -34,7 +34,7 @@ ambulo_status ambulo__smooth_start(ambulo__engine *engine, double *x, int *smoot
  *
  * with D the diagonal of the metric. Evaluations over 29 shipped problems, one run: in units 7900,
  * this 7300, by l instead of its root as many; with short rows strengthened likewise 6500, but
- * tasks that are hard to reach are then given up (range_excludes_posture; walker_2d_step on finer
+ * tasks that are hard to reach are then abandoned (range_excludes_posture; walker_2d_step on finer
  * grids takes 63 iterations, not 26). */
 
 /* Sizes of the inequalities at x; multipliers become those of the rows as they are then. Where
@@ -73,7 +73,7 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *stopping, ambulo__engine *
 void ambulo__stopping_cut(const ambulo__stopping *stopping, ambulo__engine *engine, double *x);
 
 /* Moves x by a few Newton steps until the inequalities hold; 1 on
- * success, else x stays: also when the objective rises by more than the multipliers foretell,
+ * success, else x stays: also when the objective rises by more than the multipliers predict,
  * unless `anyhow`. engine->reached must belong to x; its multipliers become the iterate's. */
 int ambulo__polish(ambulo__engine *engine, int anyhow, double *x);
 

@@ -16,7 +16,7 @@ double ambulo__engine_excess(const ambulo__engine *engine, double *excess);
 ambulo_status ambulo__engine_gradient(ambulo__engine *engine, double scale, const double *p,
                                       const double *l, double *gradient);
 /* linearized.base = metric + mu I, the metric that of the point in the workspace or of one from
- * which no unknown has moved by more than the roughness. 1: it is not finite, which is told
+ * which no unknown has moved by more than the roughness. 1: it is not finite, which is reported
  * to the run. */
 int ambulo__engine_fill_metric(ambulo__engine *engine, double mu);
 /* Relative error of a reduced gradient, and change of an unknown since the metric was filled in,

@@ -28,7 +28,7 @@ typedef enum ambulo__row_rank {
 typedef struct ambulo__row_roles {
   ambulo__sparse_rows equality, border, inequality;
   double *unit; /* [inequality.count]: the sizes above */
-  double *size; /* what each is divided by: the same, or what ambulo__balance_rows makes of it */
+  double *size; /* what each is divided by: the same, or as ambulo__balance_rows weights it */
   int *rank;    /* [rows]: ambulo__row_rank */
   int dropped;
   int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */

@@ -24,7 +24,7 @@ typedef struct ambulo__run {
   int evaluations, iterations;
   int stopped;          /* a limit was met or the caller said stop */
   ambulo_ending ending; /* of the run while `stopped`, else of the method that ran last */
-  int faults;           /* points that were given up because something was not finite */
+  int faults;           /* points that were rejected because something was not finite */
   int faults_lately;    /* of these, since the last iteration that brought a point */
   int breakdowns;       /* metrics that could not be factored, since then */
   ambulo_fault fault, first_fault; /* the first of those lately; of all */
@@ -59,7 +59,7 @@ void ambulo__run_nlopt(ambulo__run *run, int result, double seconds);
 const char *ambulo__nlopt_name(int result);
 /* A method ends for a reason of its own; a limit that stopped the run stays. */
 void ambulo__run_end(ambulo__run *run, ambulo_ending ending);
-/* Something was not finite at a point that is given up. */
+/* Something was not finite at a point that is rejected. */
 void ambulo__run_fault(ambulo__run *run, const ambulo_fault *fault);
 /* A method has found a point: what was not finite on the way did not keep it from that. */
 void ambulo__run_forgive(ambulo__run *run);

@@ -142,13 +142,13 @@ static int step(ambulo__engine *e, double rho, double *x) {
   return !ambulo__retract(e, x);
 }
 
-/* whether the point in the workspace costs more than the rows' multipliers foretold */
+/* whether the point in the workspace costs more than the rows' multipliers predicted */
 static int costs_more(const ambulo__engine *e) {
   const ambulo__trial *from = &e->reached;
-  double foretold = AMBULO__VALUE_CHANGE * fabs(from->objective);
+  double predicted = AMBULO__VALUE_CHANGE * fabs(from->objective);
   for (int i = 0; i < e->setup->inequalities; i++)
-    foretold += AMBULO__POLISH_RISE * from->multiplier[i] * fabs(from->excess[i]);
-  return e->setup->objective_scale * e->workspace->objective - from->objective > foretold;
+    predicted += AMBULO__POLISH_RISE * from->multiplier[i] * fabs(from->excess[i]);
+  return e->setup->objective_scale * e->workspace->objective - from->objective > predicted;
 }
 
 int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {

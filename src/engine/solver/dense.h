@@ -109,9 +109,9 @@ void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__events *ev
 
 /* -------------------------------------------------------------------- cure */
 
-/* How many intervals bring which rule under its tolerance, as far as can be foretold. */
+/* How many intervals bring which rule under its tolerance, as far as can be predicted. */
 typedef struct ambulo__dense_cure {
-  int intervals, spline_intervals;       /* 0: no number that is foretold helps any */
+  int intervals, spline_intervals;       /* 0: no number that is predicted helps any */
   int cured[AMBULO__DENSE_RULES];        /* 1: `intervals` are enough */
   int out_of_reach[AMBULO__DENSE_RULES]; /* 1: more intervals help, but not as few as are tried */
 } ambulo__dense_cure;

@@ -39,7 +39,7 @@ ambulo_status ambulo__dense_advise(const ambulo_problem *problem, int in_time,
                                    ambulo_diagnostics *diagnostics, ambulo_result *result);
 
 /* dense_words.c: settings, advice, lines and the summary of a report whose families are there.
- * `cure`: NULL when nothing was foretold. */
+ * `cure`: NULL when nothing was predicted. */
 void ambulo__dense_words(const ambulo_problem *problem, ambulo_verdict verdict,
                          const ambulo__dense_cure *cure, ambulo__dense_report *report);
 

@@ -2,7 +2,7 @@
  *
  * Between nodes that both hold a row its violation goes down with a power p of the number of
  * intervals (dense_rules.h). Beside an event it grows from the last node that holds the row, at a
- * rate that the motion has: e at the end of contacts, e' at their beginning. Foretold for N'
+ * rate that the motion has: e at the end of contacts, e' at their beginning. Predicted for N'
  * intervals
  *
  *     ratio(N') = max( between (N / N')^p,  max_E e_E gap_before(E, N'),  max_E e'_E gap_after(E,
@@ -14,7 +14,7 @@
  *
  * Grids on events have no gaps, whatever their number of intervals: no rates are looked for.
  *
- * A new solve has another motion. What is foretold must therefore stay below `target`, not 1.
+ * A new solve has another motion. What is predicted must therefore stay below `target`, not 1.
  */
 #include "solver/dense.h"
 
@@ -115,7 +115,7 @@ static double order_of(const forecast *f, const ambulo__dense_rule *rule) {
 }
 
 /* (A.2c) error expected on a grid of N' intervals */
-static double foretold(const forecast *f, int rule, int intervals) {
+static double predicted(const forecast *f, int rule, int intervals) {
   const ambulo_problem_definition *d = &f->problem->definition;
   const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);
   double finer = (double)d->intervals / intervals;
@@ -143,11 +143,11 @@ static int most_intervals(const forecast *f) {
   return own < MOST_INTERVALS / 4 ? MOST_INTERVALS : 4 * own; /* a problem has 100000 at most */
 }
 
-/* the fewest intervals that are foretold to suffice for this rule; 0: not within the limit */
+/* the fewest intervals that are predicted to suffice for this rule; 0: not within the limit */
 static int fewest_for(const forecast *f, int rule) {
   int most = most_intervals(f);
   for (int n = f->problem->definition.intervals + 1; n <= most; n++) {
-    if (foretold(f, rule, n) <= target) return n;
+    if (predicted(f, rule, n) <= target) return n;
   }
   return 0;
 }
@@ -158,7 +158,7 @@ static int fewest_for_all(const forecast *f, const int *fewest) {
   for (int rule = 0; rule < AMBULO__DENSE_RULES; rule++) n = fewest[rule] > n ? fewest[rule] : n;
   for (; n > 0 && n <= most; n++) {
     int rule = 0;
-    while (rule < AMBULO__DENSE_RULES && (fewest[rule] == 0 || foretold(f, rule, n) <= target))
+    while (rule < AMBULO__DENSE_RULES && (fewest[rule] == 0 || predicted(f, rule, n) <= target))
       rule++;
     if (rule == AMBULO__DENSE_RULES) return n;
   }

@@ -5,7 +5,7 @@
  * 5 cm under 0.4 % of the weight are 0.2 mm.
  *
  * Orders: of what lies between two nodes that both hold a row, and beside events, on the safe side
- * of what bench/bench_dense.c sees on the shipped problems, so that what is foretold from them
+ * of what bench/bench_dense.c sees on the shipped problems, so that what is predicted from them
  * comes true there (docs/results.md has the measured ones).
  */
 #include "solver/dense_rules.h"

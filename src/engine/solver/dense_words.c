@@ -15,7 +15,7 @@ enum { ROOM = 3 };
 
 typedef struct wording {
   const ambulo_problem *problem;
-  const ambulo__dense_cure *cure; /* NULL: nothing was foretold */
+  const ambulo__dense_cure *cure; /* NULL: nothing was predicted */
   ambulo__dense_report *report;
   const char *brief[AMBULO__DENSE_RULES]; /* of each family, what the sentence says about it */
 } wording;
@@ -41,8 +41,8 @@ static void set_intervals(const wording *w, int intervals, int spline_intervals,
 
 static const char more_do_not_help[] = "more intervals do not help";
 static const char out_of_reach[] =
-    "too far off on a grid this coarse to foretell how many intervals it takes";
-static const char not_foretold[] = "no time was left to foretell how many intervals it takes";
+    "too far off on a grid this coarse to predict how many intervals it takes";
+static const char not_predicted[] = "no time was left to predict how many intervals it takes";
 static const char not_finite[] = "not finite";
 static const char again[] = "again with ";
 
@@ -88,8 +88,8 @@ static const char *advise(const wording *w, int i) {
     return not_finite;
   }
   if (!w->cure) {
-    append(advice, AMBULO__DENSE_LINE_SIZE, not_foretold);
-    return not_foretold;
+    append(advice, AMBULO__DENSE_LINE_SIZE, not_predicted);
+    return not_predicted;
   }
   if (w->cure->cured[rule]) {
     set_intervals(w, w->cure->intervals, w->cure->spline_intervals, settings);

@@ -14,7 +14,7 @@
  *
  *     (B + C'C)^-1 a = L^-T (u - W (I + W'W)^-1 W'u),   W = L^-1 C',  u = L^-1 a.
  *
- * mu falls when E decreases as the model foretells, and rises when E does not decrease.
+ * mu falls when E decreases as the model predicts, and rises when E does not decrease.
  */
 #include "solver/elastic.h"
 #include "base/arithmetic.h"

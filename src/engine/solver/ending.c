@@ -44,7 +44,7 @@ void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diag
     ambulo__warning(list, ambulo__nowhere, NULL, "%s", text);
   } else if (run->faults > 0) {
     ambulo_fault_text(&run->first_fault, text, sizeof text);
-    ambulo__note(list, ambulo__nowhere, "%d of %d points were given up; at the first %s",
+    ambulo__note(list, ambulo__nowhere, "%d of %d points were rejected; at the first %s",
                  run->faults, run->evaluations, text);
   }
 }

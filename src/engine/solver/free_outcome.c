@@ -71,7 +71,7 @@ ambulo_status ambulo__outcome_attach(ambulo__outer *run) {
   if (!outcome) return AMBULO_E_MEMORY;
   int known = run->best.objective < HUGE_VAL;
   fill_items(run, outcome);
-  (void)snprintf(outcome->ending, sizeof outcome->ending, "%s; %d solves, %d given up", why(run),
+  (void)snprintf(outcome->ending, sizeof outcome->ending, "%s; %d solves, %d rejected", why(run),
                  run->solves, run->failed);
   outcome->shown = (ambulo_parameters_outcome){
       .items = outcome->item,

@@ -1,8 +1,8 @@
 /* solver/free_refined.c - finer grids until a motion holds between its nodes too.
  *
- * After a solve the dense audit foretells the grid that would bring every family under its
+ * After a solve the dense audit predicts the grid that would bring every family under its
  * tolerance (solver/dense_cure.c); the problem on that grid is solved from the motion found, and so
- * on. What is foretold is on the safe side for grids nearby only: no grid more than doubles, and
+ * on. What is predicted is on the safe side for grids nearby only: no grid more than doubles, and
  * none has more than MOST_FINER times the intervals of the first.
  */
 #include "ambulo/parameters.h"
@@ -30,12 +30,12 @@ static const ambulo_problem *current(const refinement *r) {
   return r->problem ? r->problem : r->first;
 }
 
-static int limited(int foretold, int now) {
-  if (foretold <= now) return now;
-  return foretold < 2 * now ? foretold : 2 * now;
+static int limited(int predicted, int now) {
+  if (predicted <= now) return now;
+  return predicted < 2 * now ? predicted : 2 * now;
 }
 
-/* the grid to solve next; 0: none, since this one holds, or nothing better is foretold */
+/* the grid to solve next; 0: none, since this one holds, or nothing better is predicted */
 static int next_grid(const refinement *r, int *intervals, int *spline) {
   const ambulo_problem *p = current(r);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r->result);

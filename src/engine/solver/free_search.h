@@ -14,7 +14,7 @@
 /* One inner solve. */
 typedef struct ambulo__outer_trial {
   double *value, *gradient; /* [count]: p and dF/dp */
-  double objective;         /* F; HUGE_VAL: given up; NaN: not tried */
+  double objective;         /* F; HUGE_VAL: rejected; NaN: not tried */
   double distance;          /* D */
   ambulo_problem *problem;
   ambulo_result *result; /* NULL: there is no problem at these values */

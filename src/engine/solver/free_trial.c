@@ -97,7 +97,7 @@ static ambulo_status value_of(ambulo__outer *run, ambulo__outer_trial *t) {
   if (status == AMBULO_E_NUMERIC) return AMBULO_OK;
   if (status) return status;
   t->objective = ambulo_result_objective(t->result) / t->distance;
-  if (!take_gradient(run, t, list)) t->objective = HUGE_VAL; /* given up: no way on from there */
+  if (!take_gradient(run, t, list)) t->objective = HUGE_VAL; /* rejected: no way on from there */
   ambulo_sensitivities_free(list);
   return AMBULO_OK;
 }
@@ -133,7 +133,7 @@ static int is_optimal(const ambulo__outer_trial *t) {
   return t->result && ambulo_result_verdict(t->result) == AMBULO_OPTIMAL;
 }
 
-/* a run that has nothing optimal yet goes on from a motion that holds */
+/* a run without an optimal motion yet continues from one that holds */
 static int counts(const ambulo__outer *run, const ambulo__outer_trial *t) {
   if (is_optimal(t)) return 1;
   return !is_optimal(&run->best) && ambulo_result_verdict(t->result) == AMBULO_FEASIBLE;

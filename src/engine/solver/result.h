@@ -35,7 +35,7 @@ struct ambulo_result {
   char ending[AMBULO__ENDING_SIZE];
 };
 
-/* Sized for `problem`; not judged, the audit that of a point of which nothing is known. E_MEMORY.
+/* Sized for `problem`; not judged, the audit that of an unknown point. E_MEMORY.
  */
 ambulo_status ambulo__result_create(const ambulo_problem *problem,
                                     const ambulo_allocator *allocator, ambulo_result **result);

@@ -1,7 +1,7 @@
 /* solver/session.c - see session.h.
  *
  * Whatever happened, the result's numbers are those of the audit (solver/audit.c). A point that
- * satisfies the rows and is not shown to be optimal is gone on from: AUGLAG starts afresh there,
+ * satisfies the rows and is not shown to be optimal is the next start: AUGLAG begins afresh there,
  * with the damping and the penalty of a start, and often sees further.
  */
 #include "solver/session.h"

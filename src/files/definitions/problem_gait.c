@@ -256,7 +256,7 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
   if (status == AMBULO_E_ARGUMENT) {
     /* the keys have been checked one by one: what is left is the model, or an earlier error */
     int feet = ambulo_model_foot_count(reader->model);
-    if (feet == 2 || feet == 0) return; /* of none it is told at first_foot */
+    if (feet == 2 || feet == 0) return; /* none is reported at first_foot */
     (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, "write the schedule out under 'contacts'",
                              "the model has %d feet; expected 2 for a regular gait", feet);
     return;

@@ -38,7 +38,7 @@ static void to_radians(ambulo__problem_reader *reader, ambulo__motion *motion, c
   ambulo__motion_to_radians(motion, is_angle);
 }
 
-/* degrees that nobody declared would be followed as radians, without a word */
+/* undeclared degrees would silently be followed as radians */
 static void doubt_units(const ambulo__problem_reader *reader, const ambulo__motion *motion,
                         const int *column, const ambulo__yaml_node *node) {
   for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
@@ -165,7 +165,7 @@ const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
   if (d->grid != AMBULO_GRID_UNIFORM) {
     double *times = ambulo__reader_alloc(reader, (size_t)nodes.samples, sizeof *times);
     if (!times) return NULL;
-    /* too few intervals are told when the problem is built */
+    /* too few intervals are reported when the problem is built */
     if (ambulo__node_times(d, &reader->allocator, NULL, times) == AMBULO_OK) nodes.times = times;
   }
   return read_motion(reader, node, &nodes, scale);

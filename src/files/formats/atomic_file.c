@@ -96,7 +96,7 @@ static int move_into_place(const char *temporary, const char *path, int replace)
   return unsupported ? rename(temporary, path) : -1;
 }
 
-/* Everything that may fail for want of memory comes before the rename: afterwards the new
+/* Every allocation comes before the rename: afterwards the new
  * file is there and must not be reported missing. */
 static ambulo_status write_through_temporary(const char *path, const char *data, size_t length,
                                              int replace, const ambulo_allocator *allocator,

@@ -16,7 +16,7 @@ static void give(voidpf allocator, voidpf block) {
   ambulo__free(allocator, block);
 }
 
-/* all of zlib's input, and what it makes of it */
+/* all of zlib's input, and its output */
 static void pump(z_stream *stream, const char *bytes, size_t length, ambulo__text_buffer *out) {
   char piece[4096];
   int said = Z_OK;

@@ -1,4 +1,4 @@
-/* formats/foreign_format.c - see foreign_format.h. Formats are told apart by what their
+/* formats/foreign_format.c - see foreign_format.h. Formats are recognized by what their
  * specifications put first: magic bytes, the first word, or the root element of an XML document. */
 #include "formats/foreign_format.h"
 

@@ -16,7 +16,7 @@ typedef struct ambulo__table_line {
   size_t next;
 } ambulo__table_line;
 
-/* How cells are told apart. */
+/* How cells are separated. */
 typedef enum ambulo__table_cells {
   AMBULO__CELLS_COMMA,
   AMBULO__CELLS_TAB,  /* empty cells at the end are ignored */

@@ -64,7 +64,7 @@ def inverse_of_file(model: Model, motion, **options) -> InverseOfFile:
 def compare(folder, reference=None, *, norms=None, **options) -> List[records.CurveScore]:
     """Scores a result folder, or a file with a person's own motion, against curves of people.
 
-    ``reference`` is a CSV of normative curves; None: the curves that come along (or those of the
+    ``reference`` is a CSV of normative curves; None: the shipped curves (or those of the
     folder ``norms``). ``options`` are those of ``CompareOptions``.
     """
     struct = Carrier().new(records.CompareOptions(**options))

@@ -81,7 +81,7 @@ def points(of, names: Optional[Sequence[str]] = None, up: int = 1, forward: int 
 
 
 def sensitivities(of, most: int = 15, *, title: Optional[str] = None):
-    """The dearest numbers of a problem as bars: percent of the objective for a change that one can
+    """The most important numbers of a problem as bars: percent of the objective for a change that one can
     picture; ``of``: what ``Result.sensitivities`` returns."""
     items = [item for item in of if numpy.isfinite(item.share)][:most][::-1]
     figure, axes = _axes(1, 1, (7, 1 + 0.3 * len(items)), title)

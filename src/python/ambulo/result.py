@@ -161,7 +161,7 @@ class Result(Owner):
     # ----------------------------------------------------------- sensitivities
 
     def sensitivities(self) -> List[records.Sensitivity]:
-        """What each number of the problem costs at this optimum, dearest first; empty where the
+        """The sensitivity of this optimum to each number of the problem, largest first; empty where the
         point is not optimal. ``ambulo.to_pandas(result.sensitivities())`` makes a table."""
         out = ffi.new("ambulo_sensitivity_list **")
         with Call() as call:
