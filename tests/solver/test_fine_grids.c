@@ -59,7 +59,7 @@ static void iterations_do_not_follow_the_grid(void **state) {
 static void tight_tolerances_are_met(void **state) {
   (void)state;
   static const double tolerance[] = {5e-7, 3e-7};
-  ambulo_problem *problem = load("walker_2d_step", 160);
+  ambulo_problem *problem = load("yardstick_72", 144);
   for (int i = 0; i < 2; i++) {
     ambulo_options options = ambulo_options_default();
     ambulo_result *result = NULL;
