@@ -35,7 +35,7 @@ static const miss misses[] = {
     {WALK,
      {0},
      "free_moment",
-     "ground",
+     "left",
      "to the left",
      -0.01,
      "be up to 0.0302 body weights m",
@@ -47,9 +47,8 @@ static const miss misses[] = {
      "left",
      "front",
      -0.01,
-     "of left go 0.01 m further front",
-     {"ground_reaction.pressure={heel: [-0.02, 0.03], roll: 0.04, flat: [-0.005, 0.02], toe: [-0.02"
-      ", 0.0652], width: 0.035}"},
+     "left would have to carry a moment of 0.01 body weights m (front) with hardly a force",
+     {0},
      1},
     {"models/yardstick_36.yaml",
      {0},
@@ -84,12 +83,11 @@ static const miss misses[] = {
      "left",
      "back",
      -0.01,
-     "of left go 0.01 m further back",
-     {"ground_reaction.pressure={heel: [-0.02, 0.03], roll: 0.04, flat: [-0.005, 0.02], toe: [-0.03"
-      "02, 0.055], width: 0.035}"},
+     "left would have to carry a moment of 0.01 body weights m (back) with hardly a force",
+     {0},
      1},
     /* more than a key may be: the sentence alone */
-    {WALK, {0}, "free_moment", "ground", "to the left", -20.0, "be up to 20.", {0}, 1},
+    {WALK, {0}, "free_moment", "left", "to the left", -20.0, "be up to 20.", {0}, 1},
     {"models/yardstick_36.yaml",
      {0},
      "zmp",
@@ -178,41 +176,61 @@ static void contacts_that_share_have_words_of_their_own(void **state) {
   try_misses(shared, sizeof shared / sizeof *shared);
 }
 
+/* what is suggested where a side of a box is missed by 1 cm of half the body weight; `other` is the
+ * opposite side, `way` the length of the box between them */
+static ambulo__explanation *suggest_pressed(const ambulo_problem *p, const miss *m,
+                                            const char *other, double way, int node) {
+  miss opposite = *m;
+  opposite.detail = other;
+  int row = find_row(p, m, node), across = find_row(p, &opposite, node);
+  assert_true(row >= 0 && across >= 0);
+  double *values = calloc((size_t)p->rows, sizeof *values);
+  ambulo__explanation *out = calloc(1, sizeof *out);
+  values[row] = -0.01;
+  /* but for what is allowed on either side */
+  values[across] = 0.5 * way + 0.01 + 2.0 * p->table.rows[row].constant;
+  ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
+  ambulo__suggest(p, &remedy, out);
+  free(values);
+  return out;
+}
+
+/* heel to ball is 0.19 m of a stature of 1.75 m; the box of a flat foot is that and 0.025 m long */
+static double flat_length(const ambulo_problem *p) {
+  ambulo__foot_outline outline = ambulo__foot_outline_of(p->model, 1);
+  return outline.length + 0.025;
+}
+
+#define TOE_BOX "toe: [-0.02, 0.055], "
+
 /* 1 cm of half the body weight are 2 cm of the centre of pressure: of either end, and of the width
  */
 static void pressure_is_missed_by_what_its_force_makes_of_it(void **state) {
   (void)state;
+  static const char heel[] = "ground_reaction.pressure={heel: [-0.02, 0.03], roll: 0.04, flat: ";
   static const char *const settings[] = {SHARED};
   static const struct {
     const char *detail, *other;
     const char *phrase, *setting;
-  } cases[] = {{"front", "back", "of left go 0.02 m further front", "flat: [-0.005, 0.0404]"},
-               {"back", "front", "of left go 0.02 m further back", "flat: [-0.0254, 0.02]"},
-               {"left", "right", "of left go 0.02 m further left", "width: 0.0554"},
-               {"right", "left", "of left go 0.02 m further right", "width: 0.0554"}};
+  } cases[] = {{"front", "back", "of left go 0.02 m further front",
+                "[-0.005, 0.0404], " TOE_BOX "width: 0.035}"},
+               {"back", "front", "of left go 0.02 m further back",
+                "[-0.0254, 0.02], " TOE_BOX "width: 0.035}"},
+               {"left", "right", "of left go 0.02 m further left",
+                "[-0.005, 0.02], " TOE_BOX "width: 0.0554}"},
+               {"right", "left", "of left go 0.02 m further right",
+                "[-0.005, 0.02], " TOE_BOX "width: 0.0554}"}};
   ambulo_problem *p = load(WALK, settings, 1);
   for (int i = 0; i < 4; i++) {
-    const miss m = {WALK, {SHARED}, "pressure", "left", cases[i].detail, -0.01, NULL, {0}, 1};
-    miss opposite = m;
-    opposite.detail = cases[i].other;
-    int node = 16, row = find_row(p, &m, node), other = find_row(p, &opposite, node);
-    assert_true(row >= 0 && other >= 0);
-    /* heel to ball is 0.19 m of a stature of 1.75 m; the box is that and 0.025 m long */
-    double length = ambulo__foot_outline_of(p->model, 1).length;
-    double way = i < 2 ? length + 0.025 : 0.07;
-    double *values = calloc((size_t)p->rows, sizeof *values);
-    ambulo__explanation *out = calloc(1, sizeof *out);
-    values[row] = -0.01;
-    /* but for what is allowed on either side */
-    values[other] = 0.5 * way + 0.01 + 2.0 * p->table.rows[row].constant;
-    ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
-    ambulo__suggest(p, &remedy, out);
-    if (!strstr(out->suggestion, cases[i].phrase) || !strstr(out->setting[0], cases[i].setting))
-      print_error("got '%s', '%s'\n", out->suggestion, out->setting[0]);
-    assert_non_null(strstr(out->suggestion, cases[i].phrase));
-    assert_non_null(strstr(out->setting[0], cases[i].setting));
+    char setting[200];
+    (void)snprintf(setting, sizeof setting, "%s%s", heel, cases[i].setting);
+    const miss m = {WALK,  {SHARED},        "pressure", "left", cases[i].detail,
+                    -0.01, cases[i].phrase, {setting},  1};
+    double way = i < 2 ? flat_length(p) : 0.07;
+    ambulo__explanation *out = suggest_pressed(p, &m, cases[i].other, way, 16);
+    expect_advice(&m, out);
+    follow(&m, p, find_row(p, &m, 16), out);
     free(out);
-    free(values);
   }
   ambulo_problem_free(p);
 }
@@ -233,11 +251,14 @@ static void on_an_event_both_boxes_move(void **state) {
                   "left",
                   "front",
                   -0.01,
-                  "of left go 0.01 m further front",
-                  {"ground_reaction.pressure={heel: [-0.02, 0.0402], roll: 0.04, flat: [-0.005, "
-                   "0.0302], toe: [-0.02, 0.055], width: 0.035}"},
+                  "of left go 0.02 m further front",
+                  {"ground_reaction.pressure={heel: [-0.02, 0.0504], roll: 0.04, flat: [-0.005, "
+                   "0.0404], toe: [-0.02, 0.055], width: 0.035}"},
                   1};
-  expect_at(p, &m, 4);
+  ambulo__explanation *out = suggest_pressed(p, &m, "back", flat_length(p), 4);
+  expect_advice(&m, out);
+  follow(&m, p, find_row(p, &m, 4), out);
+  free(out);
   ambulo_problem_free(p);
 }
 
@@ -250,11 +271,11 @@ static void without_a_file_there_are_no_settings(void **state) {
 static void friction_is_what_the_pair_of_rows_asks_for(void **state) {
   (void)state;
   ambulo_problem *p = load(WALK, NULL, 0);
-  const miss m = {WALK, {0}, "friction", "total", "forward", 0.0, NULL, {0}, 1};
+  const miss m = {WALK, {0}, "friction", "left", "forward", 0.0, NULL, {0}, 1};
   int row = find_row(p, &m, 7);
   const double mu = p->definition.ground_reaction.friction, normal = 0.8, along = 0.52;
   double *values = calloc((size_t)p->rows, sizeof *values);
-  int other = strcmp(p->table.rows[row + 1].subject, "total") == 0 &&
+  int other = strcmp(p->table.rows[row + 1].subject, "left") == 0 &&
                       strcmp(p->table.rows[row + 1].detail, "backward") == 0
                   ? row + 1
                   : row - 1;
@@ -283,10 +304,11 @@ static void friction_that_does_not_help_is_not_asked_for(void **state) {
                                    {-0.5, 0.54, 0.0},  /* 0.5 (1 + 2 * 0.5 / 0.04): above 10 */
                                    {-0.1, -0.2, 0.5}}; /* the row after is of another direction */
   ambulo_problem *p = load(WALK, NULL, 0);
-  const miss m = {WALK, {0}, "friction", "total", "backward", 0.0, NULL, {0}, 1};
+  const miss m = {WALK, {0}, "friction", "left", "backward", 0.0, NULL, {0}, 1};
   int row = find_row(p, &m, 7);
   assert_string_equal(p->table.rows[row + 1].detail, "forward");
-  p->table.rows[row + 2].subject = "left"; /* three rows next to each other */
+  assert_string_equal(p->table.rows[row + 2].detail, "to the right"); /* the row after */
+  assert_string_equal(p->table.rows[row + 2].subject, "left");
   for (int i = 0; i < 3; i++) {
     ambulo__explanation *out = calloc(1, sizeof *out);
     double *values = calloc((size_t)p->rows, sizeof *values);

@@ -127,7 +127,9 @@ static inline void try_without_keys(const miss *misses, int count) {
   memset(&p->keys, 0, sizeof p->keys);
   for (int i = 0; i < count; i++) {
     if (misses[i].file != WALK || misses[i].overrides[0]) continue;
-    ambulo__explanation *out = suggest(p, find_row(p, &misses[i], -2), misses[i].value);
+    int row = find_row(p, &misses[i], -2);
+    assert_true(row >= 0);
+    ambulo__explanation *out = suggest(p, row, misses[i].value);
     assert_int_equal(out->view.setting_count, 0);
     assert_non_null(strstr(out->suggestion, misses[i].phrase));
     free(out);
