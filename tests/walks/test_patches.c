@@ -2,6 +2,8 @@
  * does not go with them. */
 #include "support/contact_index.h"
 #include "mechanics/pose.h"
+#include "solver/result.h"
+#include "support/moved_problem.h"
 #include "support/patched_problem.h"
 
 static void refuse(const ambulo_problem_definition *d, const char *phrase) {
@@ -207,9 +209,8 @@ static void a_hand_on_a_rail_takes_what_the_law_says(void **state) {
     assert_int_equal(patch_contact_index_at(problem, HAND_R, t), t > 0.2 && t < 0.8 ? 2 : -1);
     assert_int_equal(patch_contact_index_at(problem, SEAT, t), -1);
   }
-  assert_int_equal(patch_contact_index_at(problem, PATCHES, 0.5), -1);
-  assert_int_equal(patch_contact_index_at(problem, -1, 0.5), -1);
-  assert_int_equal(contact_index_at(problem, 2, 0.5), -1);
+  for (int foot = 0; foot < 2; foot++)
+    assert_int_equal(contact_index_at(problem, foot, 0.5), foot == WALKER_RIGHT ? 0 : 1);
   unpose(&at_rail);
   ambulo_model_free(model);
 }
@@ -255,44 +256,66 @@ static void what_does_not_go_is_refused(void **state) {
   ambulo_model_free(no_feet);
 }
 
-static ambulo_status no_problem(void *user, const double *values, const ambulo_allocator *allocator,
-                                ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
-  (void)user, (void)values, (void)allocator, (void)diagnostics, (void)problem;
-  return AMBULO_E_INTERNAL;
+/* what is true at any point, with any multipliers: those are such that every row counts */
+static ambulo_result *scattered_at(const ambulo_problem *problem, const posed *p) {
+  ambulo_result *result = NULL;
+  ambulo_options options = ambulo_problem_options(problem);
+  assert_int_equal(ambulo_audit_point(problem, &options, p->x, NULL, NULL, &result), AMBULO_OK);
+  for (int r = 0; r < result->rows; r++) result->multiplier[r] = 0.1 * sin(1.0 + 2.3 * r);
+  result->verdict = AMBULO_OPTIMAL;
+  return result;
 }
 
-/* no sensitivities yet, and so nothing that is chosen by them */
-static void there_are_no_sensitivities_yet(void **state) {
+static const ambulo_sensitivity *find_number(const ambulo_sensitivity_list *list,
+                                             const char *name) {
+  for (int i = 0; i < list->count; i++)
+    if (!strcmp(list->items[i].name, name)) return &list->items[i];
+  print_error("no '%s' of %d numbers\n", name, list->count);
+  return NULL;
+}
+
+/* where the hand is, ahead and up, and how far off it may be: derivatives of the Lagrangian against
+ * central differences of problems made anew */
+static void sensitivities_know_of_hands(void **state) {
   (void)state;
+  static const char *const names[] = {"contacts[2].place[0]", "contacts[2].place[1]",
+                                      "contacts[2].place[2]", "constraints.contact_tolerance"};
+  static const double by = 1e-5;
   ambulo_model *model = patched_walker(0);
-  ambulo_problem_definition d = definition_of(model, feet_and_hand + 1, 2);
-  ambulo_term term = ambulo_term_default(AMBULO_ACCELERATION);
-  d.terms = &term;
-  d.term_count = 1;
-  ambulo_problem *problem = create(&d), *best = NULL;
-  ambulo_options options = ambulo_problem_options(problem);
-  double *zero = calloc((size_t)ambulo_problem_variable_count(problem), sizeof *zero);
-  ambulo_result *result = NULL;
+  ambulo_contact contacts[3];
+  memcpy(contacts, feet_and_hand, sizeof contacts);
+  ambulo_problem_definition d = definition_of(model, contacts, 3);
+  ambulo_term terms[2] = {ambulo_term_default(AMBULO_ACCELERATION),
+                          ambulo_term_default(AMBULO_GROUND_FORCE)};
+  d.terms = terms;
+  d.term_count = 2;
+  posed p = pose(&d, 0.03, 0.4);
+  ambulo_result *result = scattered_at(p.problem, &p);
   ambulo_sensitivity_list *list = NULL;
-  assert_int_equal(ambulo_audit_point(problem, &options, zero, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
-  assert_int_equal(list->count, 0);
-  assert_string_equal(list->reason, "there are none yet for contacts of patches");
+  assert_int_equal(ambulo_sensitivities(p.problem, result, NULL, &list), AMBULO_OK);
+  assert_string_equal(list->reason, "");
+  assert_true(list->count > 6);
+  double *const numbers[] = {&contacts[2].place[0], &contacts[2].place[1], &contacts[2].place[2],
+                             &d.contact_tolerance};
+  for (int i = 0; i < 4; i++) {
+    const ambulo_sensitivity *s = find_number(list, names[i]);
+    assert_non_null(s);
+    double kept = *numbers[i], value[2];
+    for (int k = 0; k < 2; k++) {
+      *numbers[i] = kept + (k ? by : -by);
+      ambulo_problem *moved = create(&d);
+      value[k] = lagrangian_at(moved, result->x, result->multiplier, result->rows);
+      ambulo_problem_free(moved);
+    }
+    *numbers[i] = kept;
+    double difference = (value[1] - value[0]) / (2.0 * by);
+    assert_true(fabs(difference) > 1e-3);
+    assert_close(s->derivative, difference,
+                 1e-7 * fabs(difference) + 1e-14 * (fabs(value[0]) + 1.0) / by);
+  }
   ambulo_sensitivities_free(list);
   ambulo_result_free(result);
-  ambulo_parameter item = {.name = "subject.mass", .lower = 50.0, .upper = 90.0};
-  ambulo_parameters free_ones = ambulo_parameters_default();
-  free_ones.items = &item;
-  free_ones.count = 1;
-  free_ones.problem_at = no_problem;
-  ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
-  assert_int_equal(
-      ambulo_solve_parameters(problem, &free_ones, NULL, NULL, messages, &best, &result),
-      AMBULO_E_ARGUMENT);
-  assert_message(messages, 0, "which contacts of patches do not have yet");
-  ambulo_diagnostics_free(messages);
-  free(zero);
-  ambulo_problem_free(problem);
+  unpose(&p);
   ambulo_model_free(model);
 }
 
@@ -326,7 +349,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(four_legs_carry_a_quarter_each),
                                      cmocka_unit_test(a_hand_on_a_rail_takes_what_the_law_says),
                                      cmocka_unit_test(what_does_not_go_is_refused),
-                                     cmocka_unit_test(there_are_no_sensitivities_yet),
+                                     cmocka_unit_test(sensitivities_know_of_hands),
                                      cmocka_unit_test(mirrored_ends_ask_for_partners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
