@@ -2,9 +2,9 @@
  * a table says all about one.
  *
  * Loops over the tables set defaults, check ranges, copy and free definitions, take those of older
- * headers, make the hash (definition.h), read problem files (definitions/read_members.h), and name
- * the numbers that have sensitivities. A new member is a row here, and whatever rows or terms of
- * the motion look at it.
+ * headers, make the hash (definition.h), read problem files (definitions/problem_reader.h), and
+ * name the numbers that have sensitivities. A new member is a row here, and whatever rows or terms
+ * of the motion look at it.
  */
 #ifndef AMBULO_PROBLEM_MEMBERS_H
 #define AMBULO_PROBLEM_MEMBERS_H
@@ -72,7 +72,7 @@ enum {
   AMBULO__REQUIRED = 1 << 3,        /* in files */
   AMBULO__RISING = 1 << 4,          /* two numbers, the first below the second */
   AMBULO__READ_APART = 1 << 5,      /* from files by code of its own, not by the loop */
-  AMBULO__BODY_LENGTH = 1 << 6,     /* as large as the body is long (problem/definition_resize.h) */
+  AMBULO__BODY_LENGTH = 1 << 6,     /* as large as the body is long (problem/definition.h) */
   AMBULO__NOT_COPIED = 1 << 7       /* a text that the problem does not own */
 };
 

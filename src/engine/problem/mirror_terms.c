@@ -1,4 +1,4 @@
-/* problem/mirror_terms.c - terms on the two sides of the body (mirror_terms.h).
+/* problem/mirror_terms.c - terms on the two sides of the body (term.h).
  *
  * In the mirror image tau_m = s tau_i, and so for q and its rates. The residual of a term on
  * partner m is that on i, up to its sign, when

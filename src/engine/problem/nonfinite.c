@@ -1,4 +1,4 @@
-/* problem/nonfinite.c - see fault.h.
+/* problem/nonfinite.c - where a value or a derivative is not finite (nonfinite.h).
  *
  * Values: the unknowns, then the rows, then each term node by node, with the channels that the
  * failed evaluation left. Derivatives: the reverse sweep of gradient.c once more, piece by piece;

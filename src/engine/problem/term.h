@@ -80,8 +80,8 @@ typedef struct ambulo__term_info {
   int members;             /* AMBULO__TERM_SCALE | ... */
   double smoothing, power; /* usual ones; 0: 1 and 2 */
   int is_rate;             /* residuals are those of intervals, not of nodes */
-  int weight_is_length; /* the weight is as large as the body is long (problem/definition_resize.h)
-                         */
+  int weight_is_length;    /* the weight is as large as the body is long (problem/definition.h)
+                            */
   /* Of composite kinds: how many residuals there are at a node, and one of them. */
   int (*forms)(const struct ambulo__term_context *context);
   void (*form)(const ambulo_term *term, const struct ambulo__term_context *context, int node, int j,
