@@ -95,9 +95,7 @@ void ambulo__parameters_of_members(ambulo__parameters *p, const ambulo__structur
       double size = m->flags & AMBULO__BODY_LENGTH && p->problem->keys.written_for
                         ? p->problem->keys.longer
                         : 1.0;
-      double unit = m->type == AMBULO__FILE_ANGLE ? p->problem->keys.radians : 1.0;
-      if (m->low < m->high)
-        ambulo__parameter_within(p, m->low * unit * size, m->high * unit * size);
+      if (m->low < m->high) ambulo__parameter_within(p, m->low * size, m->high * size);
       if (!p->failed) p->list[p->count - 1].is_length = (m->flags & AMBULO__BODY_LENGTH) != 0;
     }
   }
