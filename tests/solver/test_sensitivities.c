@@ -248,9 +248,11 @@ static void the_dearest_stands_first(void **state) {
   }
   const ambulo_sensitivity *weight = find(list, "objective[torque_squared].weight");
   assert_close(weight->share, 0.01, 1e-9); /* the only term: 1 % more is 1 % more */
-  assert_string_equal(weight->words, "1 % more weight of torque_squared raises the objective by 1 %");
+  assert_string_equal(weight->words,
+                      "1 % more weight of torque_squared raises the objective by 1 %");
   assert_close(weight->step, 1e-4, 1e-12);
-  assert_non_null(strstr(find(list, "gait.step_length")->words, "1 cm more step length lowers the objective by "));
+  assert_non_null(strstr(find(list, "gait.step_length")->words,
+                         "1 cm more step length lowers the objective by "));
   ambulo_sensitivities_free(list);
   close_solved(&s);
 }

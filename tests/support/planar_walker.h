@@ -17,7 +17,7 @@ static const double walker_pi = 3.14159265358979323846;
 static const double walker_step_time = 0.55, walker_step_length = 0.7;
 
 static inline ambulo_link planar_walker_link(const char *name, int parent, ambulo_joint_type type,
-                                      double theta, double a, double alpha, double mass) {
+                                             double theta, double a, double alpha, double mass) {
   ambulo_link link = ambulo_link_default();
   link.name = name;
   link.parent = parent;

@@ -14,7 +14,8 @@ static FILE *file;
 
 extern char __executable_start;
 
-__attribute__((no_instrument_function)) void __cyg_profile_func_enter(void *function, void *caller) {
+__attribute__((no_instrument_function)) void __cyg_profile_func_enter(void *function,
+                                                                      void *caller) {
   (void)caller;
   size_t slot = ((uintptr_t)function >> 4) % SLOTS;
   while (seen[slot] && seen[slot] != function) slot = (slot + 1) % SLOTS;

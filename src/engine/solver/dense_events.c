@@ -1,4 +1,5 @@
-/* solver/dense_events.c - how nodes fall beside the times at which rows change (contact/schedule.h).
+/* solver/dense_events.c - how nodes fall beside the times at which rows change
+ * (contact/schedule.h).
  *
  * Rows of a contact stand at nodes with from <= t < to. Between the last of them and `to`, and
  * between `from` and the first of them, nothing holds the contact: these two gaps decide how far it
