@@ -181,7 +181,7 @@ ambulo__stance ambulo__stance_of(const ambulo_problem_definition *definition,
 ambulo__span ambulo__stance_in(const ambulo_problem_definition *definition,
                                const ambulo_contact *contact, int modes);
 
-/* what the law that shares the load among contacts is told of them.
+/* input of the law that shares the load among contacts.
  *
  * A slot is a link that contacts act on: of each foot the link of its heel and, behind a joint of
  * the toes, that of its toe centre; of each patch in contact its own. At most one contact of a slot

@@ -216,7 +216,7 @@ ambulo__hold_slopes ambulo__hold_slopes_at(const ambulo_hold *hold, double durat
 /* Times inside (0, duration) at which the window begins or ends to change, time[4]; how many. */
 int ambulo__hold_events(const ambulo_hold *hold, double duration, double time[4]);
 
-/* what devices are told about time: the window of a clutch times the
+/* what devices know about time: the window of a clutch times the
  * profile. */
 
 /* One device's factor at a time, with its slopes by the time, and by the strikes that begin and end

@@ -271,7 +271,7 @@ static hash add_members(hash h, const ambulo_problem_definition *d, const ambulo
       h = add_integers(h, at, (size_t)m->count);
       break;
     case AMBULO__TEXT:
-      h = add_text(h, ambulo__member_array(m, item));
+      if (!(m->flags & AMBULO__NOT_HASHED)) h = add_text(h, ambulo__member_array(m, item));
       break;
     case AMBULO__NUMBER_ARRAY:
     case AMBULO__INDEX_ARRAY:

@@ -317,7 +317,7 @@ static const char *const limits[] = {"off", "nodes", "control_points"};
 static const char *const kinds_of_ends[] = {"free", "periodic", "mirrored"};
 #define OF ambulo_problem_definition
 static const ambulo__member definition[] = {
-    {TEXT("name", name), APART},
+    {TEXT("name", name), APART | AMBULO__NOT_HASHED},
     {BORROWED(model)},
     {NUMBER("time.duration", duration, 1e-6, 1e6, 1.0), EXACT | APART | REQUIRED, AMBULO__TIME,
      "duration"},

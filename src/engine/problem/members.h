@@ -73,7 +73,8 @@ enum {
   AMBULO__RISING = 1 << 4,          /* two numbers, the first below the second */
   AMBULO__READ_APART = 1 << 5,      /* from files by code of its own, not by the loop */
   AMBULO__BODY_LENGTH = 1 << 6,     /* as large as the body is long (problem/definition.h) */
-  AMBULO__NOT_COPIED = 1 << 7       /* a text that the problem does not own */
+  AMBULO__NOT_COPIED = 1 << 7,      /* a text that the problem does not own */
+  AMBULO__NOT_HASHED = 1 << 8       /* the problem's name: two files that say the same are one */
 };
 
 typedef struct ambulo__structure ambulo__structure;

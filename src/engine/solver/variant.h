@@ -4,7 +4,7 @@
  * in what the body weighs, how tall it is and what it climbs, in the rule of the gait. The rest
  * follows as it does for a file read with those numbers: contacts, duration and travel of a gait
  * (contact/schedule.h), the model (model/conditions.h), what is written for another body
- * (problem/resize.h). A variant of which nothing has moved makes the problem it came from.
+ * (problem/resize.h). A variant without a moved number makes the problem it came from.
  */
 #ifndef AMBULO_SOLVER_VARIANT_H
 #define AMBULO_SOLVER_VARIANT_H
