@@ -55,7 +55,7 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # registers of AVX-512, gcc's scheduling before registers are given out pays (Jacobians 6 %, with
 # the costs of a processor that has them; gradients 1 to 3 %); with 16 it does not.
 FLOATING := -ffp-contract=off -fno-math-errno
-KERNEL := -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -Wno-psabi
+KERNEL := -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -Wno-psabi $(if $(CLANG),-Wno-pass-failed)
 KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 \
   -mtune=skylake-avx512 $(if $(CLANG),,-fschedule-insns -fsched-pressure)
 KERNEL_avx2 := -mavx2 -mfma
