@@ -64,8 +64,7 @@ ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[
  * set where P > 0. */
 double ambulo__box_depth(double ends[2][3], const double half[3], double out[3], double share[2]);
 
-/* capsules keep clear of one another and of what stands around: rows that are not
- * linear.
+/* Capsules keep clear of one another and of obstacles: rows that are not linear.
  *
  * A capsule of a link is all that is within its radius of a segment whose ends are points of the
  * model (model/model_query.h). It keeps D = its radius + the other's radius + a margin away from
