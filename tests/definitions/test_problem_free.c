@@ -175,6 +175,11 @@ static void faults_are_placed(void **state) {
                  "p.yaml:10:25: error[E_SCHEMA]: got '-0.1");
   expect_refusal(WALK "free: {gait.speed: [1, 200]}\n", AMBULO_E_SCHEMA,
                  "p.yaml:10:24: error[E_SCHEMA]: got '200'; expected a number from 0.001 to 100");
+  /* the range of a definition's member is that of its key */
+  expect_refusal(WALK "free: {\"objective[torque_squared].weight\": [-1, 2]}\n", AMBULO_E_SCHEMA,
+                 "got '-1'; expected a number from 0 to 1e+12");
+  expect_refusal(WALK "free: {constraints.ground_height: [-2000, 1]}\n", AMBULO_E_SCHEMA,
+                 "got '-2000'; expected a number from -1000 to 1000");
   expect_refusal(WALK "free: {}\n", AMBULO_E_SCHEMA, "0 free parameters; expected 1 to 64");
   expect_refusal(WALK "free: {per: none}\n", AMBULO_E_SCHEMA, "0 free parameters");
   expect_refusal(WALK "free: 3\n", AMBULO_E_SCHEMA, "'free' is not a mapping");
