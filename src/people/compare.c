@@ -1,10 +1,12 @@
 /* people/compare.c - ambulo_compare(): a result folder, or a person's own motion, against curves
  * of people.
  *
- * Reading order: compare_reference.h, compare_map.h, compare_people.h, compare_cycle.h,
- * compare_samples.c, compare_subject.h, compare_columns.c, compare_strikes.c, compare_forces.c,
- * compare_subject.c, compare_curve.h, compare_score.h, compare.c, compare_doubt.h,
- * compare_cycles.h.
+ * Reading order: first the motion as it is shown: stride.h, stride.c, stride_loads.c,
+ * stride_measures.h. Then inverse dynamics of a motion file: motion_fit.h, inverse.h,
+ * inverse_motion.c, force_columns.h, force_match.c, ground_load.h, load_apply.c, hand_load.h,
+ * plausibility.h, inverse.c. Then the comparison: compare.h, compare_reference.c, compare_map.c,
+ * compare_cycle.c, compare_columns.c, compare_subject.c, compare_curve.c, compare_score.c,
+ * compare.c.
  */
 #include "people/compare.h"
 #include "base/sized.h"

@@ -1,4 +1,4 @@
-/* people/compare_cycle.c - strikes, body mass, and curves over percents (compare_cycle.h). */
+/* people/compare_cycle.c - strikes, body mass, and curves over percents (compare.h). */
 #include "people/compare.h"
 
 #include <math.h>

@@ -7,9 +7,6 @@
  *
  * What hands hold is added to torques and root wrench (hand_load.h), and forces on the feet are
  * then taken off the torques (ground_load.h).
- *
- * Reading order: inverse.h, inverse.c, inverse_motion.c, filtering.h, force_columns.h,
- * force_match.c, ground_load.h, load_apply.c, hand_load.h, doubt.h, plausibility.c.
  */
 #include "people/inverse.h"
 

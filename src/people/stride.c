@@ -1,8 +1,4 @@
-/* people/stride.c - sampling a motion, and adding the mirrored second step (stride.h).
- *
- * Reading order: stride.h, stride.c, stride_feet.c, stride_devices.c,
- * stride_holds.c, strikes.h, impulse.h.
- */
+/* people/stride.c - sampling a motion, and adding the mirrored second step (stride.h). */
 #include "people/stride.h"
 
 #include "base/arithmetic.h"

@@ -1,4 +1,4 @@
-/* people/stride_measures.c - work of the joints, path of the centre of mass (economy.h). */
+/* people/stride_measures.c - work of the joints, path of the centre of mass (stride_measures.h). */
 #include "people/stride_measures.h"
 
 #include "base/arithmetic.h"

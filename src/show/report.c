@@ -1,4 +1,10 @@
-/* show/report.c - solution.yaml, and the result folder: all of it or nothing. */
+/* show/report.c - solution.yaml, and the result folder: all of it or nothing.
+ *
+ * Reading order: report.h, report.c. Numbers: summary_json.h, summary_json.c, summary_parts.c.
+ * Pictures: svg.h, skeleton.h, gait_svg.h, gait_svg.c, gait_strip.c, gait_surroundings.h,
+ * gait_people.h, gait_chart.h, gait_curves.c, picture.h. Space: scene.h, scene_body.c,
+ * scene_surroundings.c, scene.c. The page: page.h, page_data.c, page.c.
+ */
 #include "show/report.h"
 
 #include "ambulo/tools/load.h"
@@ -61,11 +67,7 @@ void ambulo__solution_yaml(const ambulo_problem *problem, const ambulo_result *r
   }
 }
 
-/* the result folder, all or nothing.
- *
- * Reading order: report.c, summary_json.h, summary_json.c, history_json.h, devices_json.h,
- * holds_json.h, solution_yaml.c, versions.c.
- */
+/* -------------------------------------------------------------- the result folder */
 
 static const char summary_name[] = "summary.json";
 

@@ -1,7 +1,7 @@
-/* show/scene.c - scene.json: series of whole numbers, curves over time, and the file (scene.h).
+/* show/scene.c - scene.json: curves over time, and the file (scene.h).
  *
- * The numbers are rounded first and differences taken of what was rounded: adding up gives the
- * rounded ones back, however long the series is.
+ * power_i = tau_i qd_i, W. Curves of people are in SI units and radians; their bands are two
+ * standard deviations to either side.
  */
 #include "show/scene.h"
 
@@ -10,33 +10,6 @@
 #include "show/gait_svg.h"
 
 #include <math.h>
-
-static const double largest = 1099511627776.0; /* 2^40: differences of differences fit */
-
-void ambulo__series(ambulo__json *json, const char *key, const double *values, int step, int count,
-                    double unit) {
-  ambulo__text_buffer line;
-  ambulo__text_init_part(&line, json->text);
-  long long last = 0, slope = 0;
-  ambulo__text_append_char(&line, '[');
-  for (int k = 0; k < count; k++) {
-    double scaled = round(values[(size_t)k * (size_t)step] / unit);
-    long long now = fabs(scaled) <= largest ? (long long)scaled : last;
-    long long change = now - last;
-    if (k > 0) ambulo__text_append_char(&line, ',');
-    ambulo__text_append_number(&line, (double)(k < 2 ? change : change - slope));
-    slope = change;
-    last = now;
-  }
-  ambulo__text_append_char(&line, ']');
-  ambulo__json_raw(json, key, ambulo__text_data(&line));
-  ambulo__text_free(&line);
-}
-
-/*
- * power_i = tau_i qd_i, W. People's curves are in SI units and radians here, their bands two
- * standard deviations to either side.
- */
 
 static const double degree = 0.017453292519943295; /* rad */
 
@@ -227,9 +200,7 @@ ambulo_status ambulo__scene_curves(ambulo__json *json, const ambulo__stride *s,
   return status;
 }
 
-/*
- * Reading order: scene.h, series.h, scene.c, body.c, surroundings.c, curves.c.
- */
+/* ------------------------------------------------------------------ the file */
 
 static void units(ambulo__json *json) {
   ambulo__json_open(json, "units", '{');

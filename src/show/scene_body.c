@@ -1,10 +1,36 @@
-/* show/scene_body.c - the ends of bones over time (scene.h). */
+/* show/scene_body.c - series of whole numbers, and the ends of bones over time (scene.h).
+ *
+ * Values are rounded before their differences are taken. Adding the differences up then gives the
+ * rounded values exactly, however long the series is.
+ */
 #include "show/scene.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/arithmetic.h"
+
+static const double largest = 1099511627776.0; /* 2^40: differences of differences fit */
+
+void ambulo__series(ambulo__json *json, const char *key, const double *values, int step, int count,
+                    double unit) {
+  ambulo__text_buffer line;
+  ambulo__text_init_part(&line, json->text);
+  long long last = 0, slope = 0;
+  ambulo__text_append_char(&line, '[');
+  for (int k = 0; k < count; k++) {
+    double scaled = round(values[(size_t)k * (size_t)step] / unit);
+    long long now = fabs(scaled) <= largest ? (long long)scaled : last;
+    long long change = now - last;
+    if (k > 0) ambulo__text_append_char(&line, ',');
+    ambulo__text_append_number(&line, (double)(k < 2 ? change : change - slope));
+    slope = change;
+    last = now;
+  }
+  ambulo__text_append_char(&line, ']');
+  ambulo__json_raw(json, key, ambulo__text_data(&line));
+  ambulo__text_free(&line);
+}
 
 const char *ambulo__scene_side(ambulo__side side) {
   static const char *const words[] = {"middle", "left", "right"};

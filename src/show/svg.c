@@ -96,8 +96,8 @@ static void length_attribute(ambulo__text_buffer *text, const char *name, double
   ambulo__text_append_format(text, "%s\"", unit);
 }
 
-void ambulo__svg_begin_wide(ambulo__text_buffer *text, double width, double height,
-                            double millimetres, const char *title) {
+void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, double millimetres,
+                       const char *title) {
   double scale = millimetres > 0.0 ? millimetres / width : 1.0;
   const char *unit = millimetres > 0.0 ? "mm" : "";
   ambulo__text_append(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -113,10 +113,6 @@ void ambulo__svg_begin_wide(ambulo__text_buffer *text, double width, double heig
   ambulo__text_append(text, "</title>\n");
   ambulo__text_append(text, style_sheet);
   ambulo__svg_rectangle(text, "background", 0.0, 0.0, width, height);
-}
-
-void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, const char *title) {
-  ambulo__svg_begin_wide(text, width, height, 0.0, title);
 }
 
 void ambulo__svg_end(ambulo__text_buffer *text) {
@@ -171,20 +167,6 @@ void ambulo__svg_label_sized(ambulo__text_buffer *text, const char *style, doubl
   number(text, font_size);
   ambulo__text_append(text, "px\"");
   ambulo__text_append_char(text, '>');
-  escape(text, label);
-  ambulo__text_append(text, "</text>\n");
-}
-
-void ambulo__svg_label_turned(ambulo__text_buffer *text, const char *style, double x, double y,
-                              double angle, const char *label) {
-  open_element(text, "text", style);
-  ambulo__text_append(text, " transform=\"translate(");
-  number(text, x);
-  ambulo__text_append_char(text, ' ');
-  number(text, y);
-  ambulo__text_append(text, ") rotate(");
-  number(text, angle);
-  ambulo__text_append(text, ")\">");
   escape(text, label);
   ambulo__text_append(text, "</text>\n");
 }

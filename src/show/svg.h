@@ -7,10 +7,9 @@
 
 #include "base/text_buffer.h"
 
-void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, const char *title);
-/* The same, printed `millimetres` wide; 0: one pixel is 1/96 inch. */
-void ambulo__svg_begin_wide(ambulo__text_buffer *text, double width, double height,
-                            double millimetres, const char *title);
+/* The page is printed `millimetres` wide; 0: one pixel is 1/96 inch. */
+void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, double millimetres,
+                       const char *title);
 void ambulo__svg_end(ambulo__text_buffer *text);
 
 void ambulo__svg_line(ambulo__text_buffer *text, const char *style, double x1, double y1, double x2,
@@ -22,17 +21,13 @@ void ambulo__svg_circle(ambulo__text_buffer *text, const char *style, double x, 
 void ambulo__svg_label(ambulo__text_buffer *text, const char *style, double x, double y,
                        const char *label);
 
-/* svg_fit.c: the same in `room` px, as the letters of usual fonts go; font_size: of the style, px.
- * What is longer is set smaller, to seven tenths, and then cut off and ended by three dots. */
+/* A label that fits into `room` px in usual fonts; font_size: of the style, px. A longer label is
+ * set smaller, down to seven tenths, and then cut off and ended by three dots. */
 void ambulo__svg_label_within(ambulo__text_buffer *text, const char *style, double x, double y,
                               double room, double font_size, const char *label);
 /* A label in a size of its own, px. */
 void ambulo__svg_label_sized(ambulo__text_buffer *text, const char *style, double x, double y,
                              double font_size, const char *label);
-
-/* The same, turned about (x, y) by an angle in degrees, clockwise. */
-void ambulo__svg_label_turned(ambulo__text_buffer *text, const char *style, double x, double y,
-                              double angle, const char *label);
 
 void ambulo__svg_group_begin(ambulo__text_buffer *text, const char *style);
 void ambulo__svg_group_end(ambulo__text_buffer *text);

@@ -107,10 +107,10 @@ static void expect_three(const ambulo__motion *motion, const char *name, int of,
   }
 }
 
-/* feet, patches, devices, holds and what an inverse dynamics adds */
-static void every_column_has_its_own_numbers(void **state) {
-  (void)state;
-  static double a[24][6 * ROWS * PATCHES];
+typedef double every_column[24][6 * ROWS * PATCHES];
+
+/* feet, patches, devices, holds and what an inverse dynamics adds; a[k] are column group k */
+static void write_every_column(every_column a, ambulo__text_buffer *text) {
   ambulo_coordinate coordinate[] = {{.name = "turn", .type = AMBULO_REVOLUTE},
                                     {.name = "slide", .type = AMBULO_PRISMATIC}};
   ambulo_foot foot[] = {{.name = "left"}, {.name = "right"}};
@@ -129,7 +129,6 @@ static void every_column_has_its_own_numbers(void **state) {
                                   {.name = "cord", .coordinate = -1}};
   const ambulo_hold hold[] = {{.name = "box", .hand = {0, 1}}, {.name = "rail", .hand = {2, -1}}};
   const int shown[] = {2, 0};
-  for (int i = 0; i < 24; i++) (void)numbered(a[i], 6 * ROWS * PATCHES, i);
   double times[ROWS] = {0.0, 0.1, 0.2};
   ambulo__motion_table table = {.model = &model,
                                 .samples = ROWS,
@@ -163,9 +162,16 @@ static void every_column_has_its_own_numbers(void **state) {
                                 .wrench = a[19],
                                 .residual = a[20],
                                 .power = a[21]};
+  ambulo__motion_csv(&table, text);
+}
+
+static void every_column_has_its_own_numbers(void **state) {
+  (void)state;
+  static every_column a;
   ambulo__text_buffer text;
+  for (int i = 0; i < 24; i++) (void)numbered(a[i], 6 * ROWS * PATCHES, i);
   ambulo__text_init(&text, NULL);
-  ambulo__motion_csv(&table, &text);
+  write_every_column(a, &text);
   ambulo__motion *m = read_back(&text, AMBULO__MOTION_CSV);
   assert_int_equal(m->columns, 4 * 2 + 3 + 2 * 10 + 2 * 10 + 2 * 3 + (13 + 7) + 6 + 6 + 2);
   expect_column(m, "qdd.slide", 2, 1, 2);

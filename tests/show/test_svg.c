@@ -7,7 +7,7 @@ static void test_elements(void **state) {
   (void)state;
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  ambulo__svg_begin(&text, 100.0, 50.0, "a & <b>");
+  ambulo__svg_begin(&text, 100.0, 50.0, 0.0, "a & <b>");
   ambulo__svg_group_begin(&text, "g");
   ambulo__svg_line(&text, "l", 0.123456, -1e-9, 1.0 / 3.0, 2.0);
   ambulo__svg_path_begin(&text, "p");
