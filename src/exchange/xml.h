@@ -9,36 +9,8 @@
 #ifndef AMBULO_EXCHANGE_XML_H
 #define AMBULO_EXCHANGE_XML_H
 
-#include "base/alloc.h"
 #include "base/diagnostics.h"
-
-#include <stdarg.h>
-
-/* ----------------------------------------------------------------------- memory */
-
-/* Memory of one import: cut from chunks, freed together. Failures stick: after the first one every
- * request yields NULL, and `failed` tells at the end. */
-typedef struct ambulo__arena_chunk ambulo__arena_chunk;
-typedef struct ambulo__arena {
-  ambulo_allocator allocator;
-  ambulo__arena_chunk *chunks;
-  int failed;
-} ambulo__arena;
-
-void ambulo__arena_free(ambulo__arena *arena); /* accepts a zero-filled one */
-
-/* Zero-filled, aligned for doubles and pointers. */
-void *ambulo__arena_take(ambulo__arena *arena, size_t count, size_t size);
-/* Copy of text[0..length) with a NUL. */
-char *ambulo__arena_copy(ambulo__arena *arena, const char *text, size_t length);
-/* printf; "" without memory, never NULL. */
-const char *ambulo__arena_print(ambulo__arena *arena, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-const char *ambulo__arena_vprint(ambulo__arena *arena, const char *format, va_list arguments)
-    __attribute__((format(printf, 2, 0)));
-/* Room for one more item in the list whose pointer is at `list`: it stays, or is twice as large and
- * elsewhere. 0: no memory. */
-int ambulo__arena_grow(ambulo__arena *arena, void *list, int count, int *capacity, size_t size);
+#include "formats/arena.h"
 
 /* ------------------------------------------------------------------------- tree */
 
@@ -65,9 +37,11 @@ ambulo__xml_node *ambulo__xml_load(ambulo__xml *xml, const char *file);
 ambulo__xml_node *ambulo__xml_child(const ambulo__xml_node *node, const char *name);
 ambulo__xml_node *ambulo__xml_next(const ambulo__xml_node *node, const char *name);
 int ambulo__xml_is(const ambulo__xml_node *node, const char *name);
+/* NOLINTBEGIN(bugprone-macro-parentheses): `child` names a variable */
 #define AMBULO__XML_EACH(child, node, name)                                                        \
   for (const ambulo__xml_node *child = ambulo__xml_child(node, name); child;                       \
        child = ambulo__xml_next(child, name))
+/* NOLINTEND(bugprone-macro-parentheses) */
 /* Value of an attribute; NULL without. */
 const char *ambulo__xml_attribute(const ambulo__xml_node *node, const char *name);
 

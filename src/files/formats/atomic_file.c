@@ -105,7 +105,8 @@ static ambulo_status write_through_temporary(const char *path, const char *data,
   int file = parent ? open_temporary(path, allocator, &temporary) : -1;
   ambulo_status status = AMBULO_OK;
   if (!parent || !temporary) {
-    status = ambulo__io_memory_error(diagnostics, path);
+    (void)ambulo__io_memory_error(diagnostics, path);
+    status = AMBULO_E_MEMORY;
   } else if (file < 0) {
     status = ambulo__io_error(diagnostics, path, "create");
   } else {

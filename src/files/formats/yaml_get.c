@@ -56,13 +56,13 @@ static void mark(const ambulo__yaml_node *mapping, const char *key) {
     if (strcmp(marks->names[i], key) == 0) return;
   if (marks->count == marks->capacity) {
     size_t capacity = marks->capacity ? 2 * marks->capacity : 8;
-    const char **names = ambulo__yaml_allocate(mapping->document, capacity, sizeof *names);
+    const char **names = ambulo__arena_take(&mapping->document->arena, capacity, sizeof *names);
     if (!names) return;
     if (marks->count > 0) memcpy(names, marks->names, marks->count * sizeof *names);
     marks->names = names;
     marks->capacity = capacity;
   }
-  const char *copy = ambulo__yaml_copy(mapping->document, key, strlen(key));
+  const char *copy = ambulo__arena_copy(&mapping->document->arena, key, strlen(key));
   if (copy) marks->names[marks->count++] = copy;
 }
 

@@ -36,7 +36,7 @@ static ambulo_status fill(ambulo__yaml *document, const char *text, size_t lengt
                          AMBULO__YAML_MAX_BYTES);
   }
   if (name) {
-    document->file = ambulo__yaml_copy(document, name, strlen(name));
+    document->file = ambulo__arena_copy(&document->arena, name, strlen(name));
     if (!document->file) return ambulo__io_memory_error(document->diagnostics, name);
   }
   ambulo_status status = ambulo__refuse_foreign(text, length, AMBULO__TAKES_YAML, document->file,
@@ -52,7 +52,7 @@ ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo__yaml *made = ambulo__alloc(&own, 1, sizeof *made);
   if (!made) return ambulo__io_memory_error(diagnostics, name);
-  made->allocator = own;
+  made->arena.allocator = own;
   made->diagnostics = diagnostics;
   ambulo_status status = fill(made, text, length, name);
   if (status == AMBULO_OK) {

@@ -6,48 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHUNK_SIZE = 16384, MAX_PATH = 512, MAX_MESSAGE = 1024 };
+enum { MAX_PATH = 512, MAX_MESSAGE = 1024 };
 
 /* ---------------------------------------------------------------------- memory */
 
-struct ambulo__yaml_chunk {
-  ambulo__yaml_chunk *next;
-  size_t used, size;
-  _Alignas(double) char bytes[]; /* `size` of them */
-};
-
-void *ambulo__yaml_allocate(ambulo__yaml *document, size_t count, size_t size) {
-  enum { UNIT = sizeof(double) };
-  if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
-  size_t bytes = (count * size + UNIT - 1) / UNIT * UNIT;
-  ambulo__yaml_chunk *chunk = document->chunks;
-  if (!chunk || chunk->size - chunk->used < bytes) {
-    size_t room = bytes > CHUNK_SIZE ? bytes : CHUNK_SIZE;
-    chunk = ambulo__alloc(&document->allocator, 1, sizeof *chunk + room);
-    if (!chunk) return NULL;
-    chunk->size = room;
-    chunk->next = document->chunks;
-    document->chunks = chunk;
-  }
-  void *block = chunk->bytes + chunk->used;
-  chunk->used += bytes;
-  return block;
-}
-
-char *ambulo__yaml_copy(ambulo__yaml *document, const char *text, size_t length) {
-  char *copy = ambulo__yaml_allocate(document, length + 1, 1);
-  if (copy) memcpy(copy, text, length);
-  return copy;
-}
-
 void ambulo__yaml_free(ambulo__yaml *document) {
   if (!document) return;
-  ambulo_allocator allocator = document->allocator;
-  for (ambulo__yaml_chunk *chunk = document->chunks; chunk;) {
-    ambulo__yaml_chunk *next = chunk->next;
-    ambulo__free(&allocator, chunk);
-    chunk = next;
-  }
+  ambulo_allocator allocator = document->arena.allocator;
+  ambulo__arena_free(&document->arena);
   ambulo__free(&allocator, document);
 }
 
@@ -125,7 +91,7 @@ ambulo__place ambulo__yaml_place(const ambulo__yaml_node *node) {
   if (!node) return ambulo__nowhere;
   const char *path = write_path(node, buffer);
   ambulo__place place = {node->file, node->line, node->column, NULL};
-  if (path[0] != '\0') place.path = ambulo__yaml_copy(node->document, path, strlen(path));
+  if (path[0] != '\0') place.path = ambulo__arena_copy(&node->document->arena, path, strlen(path));
   return place;
 }
 

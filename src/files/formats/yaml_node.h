@@ -13,9 +13,9 @@
  * Each key that is asked for is marked as known; ambulo__yaml_close() reports
  * the others with the nearest known name.
  *
- * Reading order: read_file.h, atomic_file.h, atomic_folder.c, paths.h; yaml_node.h, yaml_tree.h,
- * yaml_load.c, yaml_parse.c, yaml_get.c, yaml_set.c; tables: sheet.h; motions: motion_file.h,
- * motion_read.c, motion_write.h; JSON: json_text.h.
+ * Reading order: read_file.h, atomic_file.h, atomic_folder.c, paths.h, arena.h; yaml_node.h,
+ * yaml_tree.h, yaml_load.c, yaml_parse.c, yaml_get.c, yaml_set.c; tables: sheet.h; motions:
+ * motion_file.h, motion_read.c, motion_write.h; JSON: json_text.h.
  */
 #ifndef AMBULO_FORMATS_YAML_NODE_H
 #define AMBULO_FORMATS_YAML_NODE_H

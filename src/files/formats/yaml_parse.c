@@ -132,7 +132,8 @@ static ambulo_status refuse(const builder *b, ambulo_status status, yaml_mark_t 
 }
 
 static ambulo_status out_of_memory(const builder *b) {
-  return ambulo__io_memory_error(b->document->diagnostics, b->file);
+  (void)ambulo__io_memory_error(b->document->diagnostics, b->file);
+  return AMBULO_E_MEMORY;
 }
 
 /* ---------------------------------------------------------------- tree growth */
@@ -148,7 +149,7 @@ static ambulo_status close_collection(builder *b) {
   ambulo__yaml_node *node = b->open;
   if (!node) return AMBULO_E_INTERNAL; /* an end without a start: libyaml sends none */
   if (node->count > 0) {
-    node->items = ambulo__yaml_allocate(b->document, (size_t)node->count, sizeof *node->items);
+    node->items = ambulo__arena_take(&b->document->arena, (size_t)node->count, sizeof *node->items);
     if (!node->items) return out_of_memory(b);
     to_array(node);
   }
@@ -179,7 +180,7 @@ static ambulo_status new_node(builder *b, ambulo__yaml_kind kind, yaml_mark_t ma
                               ambulo__yaml_node **made) {
   if (b->document->node_count >= AMBULO__YAML_MAX_NODES)
     return refuse(b, AMBULO_E_LIMIT, mark, "more than 1000000 values in one document");
-  ambulo__yaml_node *node = ambulo__yaml_allocate(b->document, 1, sizeof *node);
+  ambulo__yaml_node *node = ambulo__arena_take(&b->document->arena, 1, sizeof *node);
   if (!node) return out_of_memory(b);
   b->document->node_count++;
   node->document = b->document;
@@ -200,7 +201,7 @@ static ambulo_status open_collection(builder *b, ambulo__yaml_kind kind, yaml_ma
   ambulo_status status = new_node(b, kind, mark, &node);
   if (status != AMBULO_OK) return status;
   if (kind == AMBULO__YAML_MAPPING) {
-    node->marks = ambulo__yaml_allocate(b->document, 1, sizeof *node->marks);
+    node->marks = ambulo__arena_take(&b->document->arena, 1, sizeof *node->marks);
     if (!node->marks) return out_of_memory(b);
   }
   attach(b, node);
@@ -228,7 +229,7 @@ static ambulo_status check_key(const builder *b, const char *text, int plain, ya
 static ambulo_status add_key(builder *b, const char *text, int plain, yaml_mark_t mark) {
   ambulo_status status = check_key(b, text, plain, mark);
   if (status != AMBULO_OK) return status;
-  ambulo__yaml_key_text *key = ambulo__yaml_allocate(b->document, 1, sizeof *key);
+  ambulo__yaml_key_text *key = ambulo__arena_take(&b->document->arena, 1, sizeof *key);
   if (!key) return out_of_memory(b);
   key->text = text;
   key->line = (int)mark.line + 1;
@@ -244,7 +245,7 @@ static ambulo_status add_scalar(builder *b, const yaml_event_t *event) {
   int plain = event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
   if (memchr(value, '\0', length))
     return refuse(b, AMBULO_E_PARSE, mark, "got a NUL character in a text");
-  char *text = ambulo__yaml_copy(b->document, value, length);
+  char *text = ambulo__arena_copy(&b->document->arena, value, length);
   if (!text) return out_of_memory(b);
   if (b->open && b->open->kind == AMBULO__YAML_MAPPING && !b->key)
     return add_key(b, text, plain, mark);

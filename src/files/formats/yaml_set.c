@@ -107,7 +107,7 @@ static ambulo_status follow(ambulo__yaml *document, const char *file, ambulo__ya
     *child = parent->items[where.index];
     return AMBULO_OK;
   }
-  char *word = ambulo__yaml_copy(document, where.word, where.length);
+  char *word = ambulo__arena_copy(&document->arena, where.word, where.length);
   if (!word) return ambulo__io_memory_error(document->diagnostics, file);
   if (where.kind == NAME) {
     *child = named_item(parent, word);
@@ -126,8 +126,8 @@ static ambulo_status append(ambulo__yaml *document, const char *file, ambulo__ya
   if (parent->count >= AMBULO__YAML_MAX_KEYS)
     return bad_path(document, file, "more than 1024 keys in one mapping");
   size_t count = (size_t)parent->count;
-  ambulo__yaml_node **items = ambulo__yaml_allocate(document, count + 1, sizeof(*items));
-  ambulo__yaml_key_text *text = ambulo__yaml_allocate(document, 1, sizeof *text);
+  ambulo__yaml_node **items = ambulo__arena_take(&document->arena, count + 1, sizeof(*items));
+  ambulo__yaml_key_text *text = ambulo__arena_take(&document->arena, 1, sizeof *text);
   if (!items || !text) return ambulo__io_memory_error(document->diagnostics, file);
   if (count > 0) memcpy(items, parent->items, count * sizeof *items);
   text->text = key;
@@ -196,7 +196,7 @@ const ambulo__yaml_node *ambulo__yaml_at(ambulo__yaml *document, const char *pat
 ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, const char *path,
                                      const char *value) {
   size_t size = strlen("--set ") + strlen(above) + strlen(path) + 1;
-  char *file = ambulo__yaml_allocate(document, size, 1);
+  char *file = ambulo__arena_take(&document->arena, size, 1);
   if (!file) return ambulo__io_memory_error(document->diagnostics, NULL);
   (void)snprintf(file, size, "--set %s%s", above, path);
   ambulo__yaml_node *parent = NULL, *old = NULL, *made = NULL;

@@ -1,12 +1,11 @@
 /* formats/yaml_tree.h - what the yaml_*.c files share: the nodes and their memory.
  *
- * A document owns a chain of memory chunks; nodes, texts and paths are cut from them and
- * freed together, so that a tree abandoned half-way needs no unwinding. Nodes are handed
- * out as const; what the getters must write (known keys, messages) stands behind pointers. */
+ * Nodes, texts and paths are in the document's arena. Nodes are handed out as const; what the
+ * getters must write (known keys, messages) is behind pointers. */
 #ifndef AMBULO_FORMATS_YAML_TREE_H
 #define AMBULO_FORMATS_YAML_TREE_H
 
-#include "base/alloc.h"
+#include "formats/arena.h"
 #include "formats/yaml_node.h"
 
 enum {
@@ -43,12 +42,9 @@ struct ambulo__yaml_node {
   ambulo__yaml_node *first, *last, *next; /* children while the tree grows */
 };
 
-typedef struct ambulo__yaml_chunk ambulo__yaml_chunk;
-
 struct ambulo__yaml {
-  ambulo_allocator allocator;
+  ambulo__arena arena;             /* of nodes, texts and paths */
   ambulo_diagnostics *diagnostics; /* may be NULL */
-  ambulo__yaml_chunk *chunks;
   const char *file;
   ambulo__yaml_node *root;
   int node_count;
@@ -56,10 +52,6 @@ struct ambulo__yaml {
   const ambulo__yaml_node *wrong_kind; /* reported last: once is enough */
 };
 
-/* Zero-filled, aligned for any member above; NULL when memory runs out. */
-void *ambulo__yaml_allocate(ambulo__yaml *document, size_t count, size_t size);
-/* Copy of text[0..length) with a NUL; NULL when memory runs out. */
-char *ambulo__yaml_copy(ambulo__yaml *document, const char *text, size_t length);
 /* The value of a key, NULL when absent; marks nothing. */
 ambulo__yaml_node *ambulo__yaml_find(const ambulo__yaml_node *mapping, const char *key);
 

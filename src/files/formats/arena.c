@@ -1,5 +1,5 @@
-/* exchange/arena.c - memory of one import (xml.h). */
-#include "exchange/xml.h"
+/* formats/arena.c - memory cut from chunks (arena.h). */
+#include "formats/arena.h"
 
 #include <stdint.h>
 #include <stdio.h>
