@@ -288,14 +288,12 @@ static ambulo_status add_numbers(rewrite *w, ambulo__yaml *document, const doubl
   for (int i = 0; i < w->fit->parameters; i++) {
     const ambulo__fit_parameter *p = &w->fit->parameter[i];
     for (int k = 0; k < p->keys && !status; k++) {
-      char number[AMBULO__NUMTEXT_SIZE];
       if (isnan(p->in_file[k])) continue;
       const ambulo__yaml_node *node = ambulo__yaml_at(document, p->key[k]);
       if (!node) return AMBULO_E_PROBLEM;
       double value = ambulo__fit_value(p, p->in_file[k], u[i]);
       if (value == p->in_file[k]) continue;
-      (void)ambulo__print_double(number, value);
-      status = add(w, node, number);
+      status = add(w, node, ambulo__number_text(value).text);
     }
   }
   return status;

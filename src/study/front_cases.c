@@ -152,9 +152,8 @@ ambulo_status ambulo__sweep_append_point(ambulo_sweep *s, const ambulo__front_re
   char text[AMBULO__FRONT_TERMS][AMBULO__NUMTEXT_SIZE + 64], name[AMBULO__SWEEP_TEXT];
   const char *overrides[AMBULO__FRONT_TERMS];
   for (int i = 0; i < s->axes; i++) {
-    char number[AMBULO__NUMTEXT_SIZE];
-    (void)ambulo__print_double(number, request->weight[i]);
-    (void)snprintf(text[i], sizeof text[i], "%.48s=%s", s->axis[i].key, number);
+    (void)snprintf(text[i], sizeof text[i], "%.48s=%s", s->axis[i].key,
+                   ambulo__number_text(request->weight[i]).text);
     overrides[i] = text[i];
   }
   name_point(s, request, name);

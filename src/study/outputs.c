@@ -16,7 +16,7 @@ enum { MOST_MOTION_BYTES = 1 << 30, PART = 160 };
 static void set_number(ambulo__output *value, double number) {
   value->kind = AMBULO__OUTPUT_NUMBER;
   value->number = number;
-  (void)ambulo__print_double(value->text, number);
+  (void)snprintf(value->text, sizeof value->text, "%s", ambulo__number_text(number).text);
 }
 
 /* ------------------------------------------------------------- summary.json */

@@ -13,11 +13,12 @@
 typedef struct reader {
   const ambulo__table *table;
   ambulo__depth depth;
-  ambulo_diagnostics *reasons; /* why a file could not be read */
-  ambulo__output *value;       /* [outputs] */
-  const char **path;           /* [outputs] */
-  const char **cell;           /* [columns] */
-  char number[AMBULO__FRONT_TERMS][AMBULO__NUMTEXT_SIZE], place[16]; /* cells of a front */
+  ambulo_diagnostics *reasons;                /* why a file could not be read */
+  ambulo__output *value;                      /* [outputs] */
+  const char **path;                          /* [outputs] */
+  const char **cell;                          /* [columns] */
+  ambulo__number number[AMBULO__FRONT_TERMS]; /* cells of a front */
+  char place[16];
   ambulo_batch_census census;
   ambulo__record record;
   ambulo__damage damage;
@@ -31,9 +32,8 @@ static void fill_cells(reader *r, int index) {
   if (t->front.points > 0) {
     const ambulo__front_point *p = &t->front.point[index];
     for (int i = 0; i < t->front.terms && i < AMBULO__FRONT_TERMS; i++) {
-      r->number[i][0] = '\0';
-      if (p->solved) (void)ambulo__print_double(r->number[i], p->value[i]);
-      *cell++ = r->number[i];
+      if (p->solved) r->number[i] = ambulo__number_text(p->value[i]);
+      *cell++ = p->solved ? r->number[i].text : "";
     }
     r->place[0] = '\0';
     if (p->place >= 0) (void)snprintf(r->place, sizeof r->place, "%d", p->place + 1);

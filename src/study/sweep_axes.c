@@ -127,9 +127,8 @@ const char *ambulo__axis_text(const ambulo__axis *axis, int value) {
 
 static ambulo_status add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value,
                                 ambulo__spot spot) {
-  char text[AMBULO__NUMTEXT_SIZE];
-  size_t length = ambulo__print_double(text, value);
-  return add_text(sweep, axis, text, length, spot);
+  const ambulo__number number = ambulo__number_text(value);
+  return add_text(sweep, axis, number.text, strlen(number.text), spot);
 }
 
 ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,

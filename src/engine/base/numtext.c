@@ -250,23 +250,17 @@ static const char *word_of(double value) {
   return value != 0.0 ? NULL : signbit(value) ? "-0" : "0";
 }
 
-size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value) {
+ambulo__number ambulo__number_text(double value) {
+  ambulo__number number;
   const char *word = word_of(value);
-  if (word) memcpy(buffer, word, strlen(word) + 1);
-  size_t length = word ? strlen(word) : shortest_digits(buffer, value);
-  if (length > 0) return length;
+  if (word) memcpy(number.text, word, strlen(word) + 1);
+  if (word || shortest_digits(number.text, value) > 0) return number;
   /* every text of up to 15 digits survives in a normal double, so that %.15g already
      drops what is not needed; subnormal numbers carry fewer digits */
   for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
     double back = 0.0;
-    print_digits(buffer, digits, value);
-    if (ambulo__parse_double(buffer, strlen(buffer), &back) && back == value) break;
+    print_digits(number.text, digits, value);
+    if (ambulo__parse_double(number.text, strlen(number.text), &back) && back == value) break;
   }
-  return strlen(buffer);
-}
-
-ambulo__number ambulo__number_text(double value) {
-  ambulo__number number;
-  (void)ambulo__print_double(number.text, value);
   return number;
 }

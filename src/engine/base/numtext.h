@@ -16,13 +16,9 @@ int ambulo__parse_double(const char *text, size_t length, double *value);
 int ambulo__parse_integer(const char *text, size_t length, long long min, long long max,
                           long long *value);
 
-/* Shortest text that reads back to the same double ("0.1", "1e-05", "nan",
- * "inf"); always with '.', never with ','. Returns the length written; buffer
- * must hold AMBULO__NUMTEXT_SIZE bytes. */
+/* Shortest text that reads back to the same double ("0.1", "1e-05", "nan", "inf"), always with '.'
+ * and never with ','. In a message: printf("%s", ambulo__number_text(x).text). */
 #define AMBULO__NUMTEXT_SIZE 40
-size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value);
-
-/* The same as a value, for messages: printf("%s", ambulo__number_text(x).text). */
 typedef struct ambulo__number {
   char text[AMBULO__NUMTEXT_SIZE];
 } ambulo__number;

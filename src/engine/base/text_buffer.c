@@ -74,9 +74,7 @@ void ambulo__text_append_char(ambulo__text_buffer *buffer, char c) {
 }
 
 void ambulo__text_append_number(ambulo__text_buffer *buffer, double value) {
-  char digits[AMBULO__NUMTEXT_SIZE];
-  size_t length = ambulo__print_double(digits, value);
-  ambulo__text_append_bytes(buffer, digits, length);
+  ambulo__text_append(buffer, ambulo__number_text(value).text);
 }
 
 void ambulo__text_append_format(ambulo__text_buffer *buffer, const char *format, ...) {
