@@ -162,8 +162,8 @@ static int read_line(const ambulo_sweep *s, char **at, char *head[COLUMNS], cons
 
 static ambulo_status read_lines(ambulo_sweep *s, size_t length, int cases, const char *path,
                                 ambulo_diagnostics *diagnostics) {
-  char *at = s->list, *head[COLUMNS];
-  const char *title[AMBULO__SWEEP_AXES];
+  char *at = s->list, *head[COLUMNS] = {NULL};
+  const char *title[AMBULO__SWEEP_AXES] = {NULL};
   if (!read_line(s, &at, head, title)) return corrupt(diagnostics, path, 1);
   for (int i = 0; i < s->axes; i++) {
     s->axis[i].name = ambulo__strdup(&s->allocator, title[i]);

@@ -220,6 +220,7 @@ static void search_summary(const ambulo__yaml_node *node, const char *path, sear
   s->word = word;
   for (int i = 0; ambulo__yaml_is(node, AMBULO__YAML_MAPPING) && i < ambulo__yaml_pairs(node); i++)
     offer(s, ambulo__yaml_key(node, i));
+  s->word = NULL;
 }
 
 static void search_motion(const motion *m, search *s) {

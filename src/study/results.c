@@ -338,6 +338,7 @@ static ambulo_status inspect(const char *directory, ambulo__depth depth, verific
       status = ambulo__lock_holder(directory, &table.study->allocator, diagnostics, counted.holder);
   }
   ambulo__table_close(&table);
+  v->table = NULL;
   if (!status && census) *census = counted;
   return ambulo__conclude(diagnostics, errors, status, directory);
 }

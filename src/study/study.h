@@ -118,8 +118,10 @@ ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char
 static inline ambulo_status ambulo__sweep_copy(const ambulo_sweep *sweep,
                                                const ambulo__yaml_node *node, char **copy) {
   if (!node) return AMBULO_OK;
-  *copy = ambulo__strdup(&sweep->allocator, ambulo__yaml_text(node));
-  return *copy ? AMBULO_OK : AMBULO_E_MEMORY;
+  char *text = ambulo__strdup(&sweep->allocator, ambulo__yaml_text(node));
+  if (!text) return AMBULO_E_MEMORY;
+  *copy = text;
+  return AMBULO_OK;
 }
 /* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory the
  * keys that were not read are not unknown. Returns `status`. */

@@ -172,7 +172,7 @@ static ambulo_status fill(page *p, double megabytes, ambulo__text_buffer *out,
   if (!status) status = ambulo__table_rows(&p->table, AMBULO__CELLS, add_row, p, NULL);
   if (!status) status = add_study(p, room, out, diagnostics);
   if (!status) warn_of_left_out(p, megabytes, diagnostics);
-  for (int i = 0; i < p->count; i++) ambulo__free(a, p->folder[i]);
+  for (int i = 0; p->folder && i < p->count; i++) ambulo__free(a, p->folder[i]);
   ambulo__free(a, p->number);
   ambulo__free(a, (void *)p->folder);
   ambulo__free(a, p->shown);

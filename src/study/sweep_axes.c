@@ -186,7 +186,8 @@ static ambulo_status read_head(ambulo_sweep *sweep, const ambulo__yaml_node *nod
   const char *path = ambulo__yaml_text(key);
   if (!ambulo__yaml_is(key, AMBULO__YAML_SCALAR)) return AMBULO_E_SCHEMA;
   ambulo_status status = ambulo__sweep_add_axis(sweep, name, path, ambulo__spot_of(key), axis);
-  if (!status) status = ambulo__sweep_copy(sweep, ambulo__yaml_get(node, "label"), &(*axis)->label);
+  if (status || !*axis) return status;
+  status = ambulo__sweep_copy(sweep, ambulo__yaml_get(node, "label"), &(*axis)->label);
   if (!status) status = ambulo__sweep_copy(sweep, ambulo__yaml_get(node, "unit"), &(*axis)->unit);
   return status;
 }
@@ -194,7 +195,7 @@ static ambulo_status read_head(ambulo_sweep *sweep, const ambulo__yaml_node *nod
 static ambulo_status read_axis(ambulo_sweep *sweep, const ambulo__yaml_node *node) {
   ambulo__axis *axis = NULL;
   ambulo_status status = read_head(sweep, node, &axis);
-  if (status) return status;
+  if (status || !axis) return status;
   const ambulo__yaml_node *values = ambulo__yaml_get(node, "values");
   const ambulo__yaml_node *range = ambulo__yaml_get(node, "range");
   const ambulo__yaml_node *linspace = ambulo__yaml_get(node, "linspace");
@@ -243,7 +244,7 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
   ambulo__axis *axis = NULL;
   if (!ambulo__yaml_numbers(ambulo__yaml_require(node, "range"), 2, range)) return AMBULO_E_SCHEMA;
   ambulo_status status = read_head(sweep, node, &axis);
-  if (status) return status;
+  if (status || !axis) return status;
   int *order = ambulo__alloc(&sweep->allocator, (size_t)samples, sizeof *order);
   if (!order) return AMBULO_E_MEMORY;
   for (int i = 0; i < samples; i++) order[i] = i;

@@ -1,11 +1,13 @@
 /* contact/collision_pairs.c - which capsules are kept apart.
  *
- * Automatic: of all pairs those are left out whose links are neighbours (model/model_query.h),
- * for what a joint joins overlaps there; those that overlap in the rest pose, for they would never
- * hold; and those that are too far apart to meet: that come no nearer than `far` in any of POSES
- * poses, coordinates within their ranges, or anywhere if ranges are no rows. The poses are the same
- * in every run: coordinate i takes the radical inverse of the pose's number in the i-th prime
- * (Halton, Numer Math 2:84-90, 1960).
+ * Automatic mode takes all pairs but three kinds: those of neighbouring links (model/model_query.h),
+ * which overlap at their joint; those that overlap in the rest pose, whose rows could never hold;
+ * and those too far apart to meet, which stay `far` apart in all POSES poses. With mirrored ends
+ * the mirror image of each kept pair is kept too.
+ *
+ * Coordinates of the poses are within their ranges, or anywhere if ranges have no rows. The poses
+ * are the same in every run: coordinate i takes the radical inverse of the pose's number in the
+ * i-th prime (Halton, Numer Math 2:84-90, 1960).
  */
 #include "contact/row_families.h"
 #include "base/arithmetic.h"
@@ -159,8 +161,8 @@ static void sort(ambulo__pairs *pairs) {
   }
 }
 
-/* with mirrored ends the mirror image of each pair behind it, too: other poses bring that near. So
- * the same pairs come out when these are named (keep_named). */
+/* With mirrored ends, inserts the mirror image of each kept pair behind it: other poses bring the
+ * image near. keep_named() yields the same pairs if these are named. */
 static void keep_images(const ambulo_problem_definition *d, ambulo__pairs *pairs) {
   const ambulo_capsule *capsules = d->model->capsules;
   int met = pairs->kept_count;
