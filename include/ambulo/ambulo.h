@@ -9,30 +9,31 @@
  *     device.h       parts of a problem: springs, dampers and actuators that the body wears
  *     hold.h         parts of a problem: what hands hold or push
  *     collision.h    parts of a problem: capsules, obstacles, places to reach
- *     extend.h       terms and rows added to a problem
+ *     extend.h       terms and rows added to an existing problem
  *     evaluate.h     a problem at one point: values, gradients, the motion
  *     solve.h        the solver, the verdict and the audit
- *     sensitivity.h  derivatives of the optimum by each number of a problem
+ *     sensitivity.h  derivatives of the optimum with respect to each number of a problem
  *     parameters.h   numbers of a problem that the solver chooses
  *
- * Promise: these headers are stable. A program that compiles and links with one release does so
- * with every later release of the same major version (of 0.x: of the same minor version). The
- * tools around the engine - files, results on disk, pictures, batches, imports - have headers of
- * their own, ambulo/tools/tools.h and those that it includes. They are outside the promise.
+ * Stability: these headers are stable. A program that compiles and links with one release also does
+ * so with every later release of the same major version (in 0.x: of the same minor version).
+ * Files, results on disk, pictures, batches and imports are tools around the engine. Their headers,
+ * ambulo/tools/tools.h and those it includes, are outside this promise.
  *
  * Lifecycle:  model/problem --load or create--> solve --> result --> free
  *
- * Threads: models and problems may be shared; workspaces, diagnostics and results
- * belong to one thread at a time. The library has no global state, never prints and
- * never exits. OpenBLAS starts a thread per core unless OPENBLAS_NUM_THREADS=1 is set
- * before the process starts. The matrices here are too small to gain from them: set it
- * where AVX2 is missing or bodies have more than 21 coordinates, otherwise solves do not
- * wake them. The library does not change it, for it is a setting of the whole process.
+ * Threads: models and problems may be shared. Workspaces, diagnostics and results belong to one
+ * thread at a time. The library has no global state, never prints and never exits.
+ *
+ * OpenBLAS starts a thread per core unless OPENBLAS_NUM_THREADS=1 is set before the process starts.
+ * The matrices here are too small to gain from threads. Set the variable if the processor lacks
+ * AVX2 or bodies have more than 21 coordinates; otherwise solves do not use those threads. The
+ * library does not set it, because it applies to the whole process.
  */
 #ifndef AMBULO_AMBULO_H
 #define AMBULO_AMBULO_H
 
-/* Of these headers; ambulo_version() is that of the library that is running. */
+/* Version of these headers; ambulo_version() returns that of the running library. */
 #define AMBULO_VERSION_MAJOR 0
 #define AMBULO_VERSION_MINOR 2
 #define AMBULO_VERSION_PATCH 0
@@ -56,7 +57,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-/* The version of the library that is running. */
+/* The version of the running library, "MAJOR.MINOR.PATCH"; a static string. */
 AMBULO_API const char *ambulo_version(void);
 #ifdef __cplusplus
 }

@@ -1,18 +1,18 @@
-/* ambulo/collision.h - bodies that take up room: parts of problem.h.
+/* ambulo/collision.h - collisions, obstacles and places to reach: parts of problem.h.
  *
- * A model's capsules (ambulo_capsule in model.h) keep clear of one another and of obstacles, and a
- * point of a body comes to a place at a time, or keeps its way from another point. Places are along
- * forward, along left and up from the world's origin, the third above the ground's height; those
- * relative to a point (ambulo_reach) from that point instead; m. Rows stand at the nodes:
+ * A model's capsules (ambulo_capsule in model.h) keep clear of each other and of obstacles. A point
+ * of the body comes to a place at a given time, or keeps its offset from another point. A place is
+ * three lengths, m: along forward and left from the world's origin, and up from the ground's
+ * height. Relative places (ambulo_reach) are offsets from a point instead. Rows, at the nodes:
  *
  *   collision  distance of two capsules' segments - (r1 + r2 + margin) >= 0              m
- *   obstacle   the same of a capsule and an obstacle                                     m
- *   reach      |point - place| <= tolerance along each of the three                      m
- *              |point - about - place| <= tolerance where it is relative                 m
- *              without a tolerance both as equations
+ *   obstacle   the same for a capsule and an obstacle                                    m
+ *   reach      |point - place| <= tolerance along each of the three axes                 m
+ *              |point - about - place| <= tolerance for a relative place                 m
+ *              equations if the tolerance is 0
  *
- * The distance is smoothed (docs/equations.md, 14.h): at least so much is kept, and up to .5 mm
- * more. */
+ * The distance is smoothed (docs/equations.md, 14.h): rows keep at least the margin, and at most
+ * 0.5 mm more. */
 #ifndef AMBULO_COLLISION_H
 #define AMBULO_COLLISION_H
 
@@ -24,10 +24,10 @@ extern "C" {
 
 typedef enum ambulo_collision_mode {
   AMBULO_COLLISION_OFF = 0,
-  AMBULO_COLLISION_PAIRS, /* those that are listed */
-  /* All pairs but those of links that hang on one another by joints alone, those that overlap in
-   * the rest pose (all coordinates 0, or as near as their ranges let them), and those that come no
-   * nearer than 0.1 m (of a body of 1.75 m) in any of 1024 poses within the ranges. */
+  AMBULO_COLLISION_PAIRS, /* the listed pairs */
+  /* All pairs but three kinds: those of links connected by joints alone; those that overlap in the
+   * rest pose (coordinates 0, or as near to 0 as their ranges allow); and those that stay at least
+   * 0.1 m apart (for a stature of 1.75 m) in 1024 poses within the ranges. */
   AMBULO_COLLISION_AUTOMATIC
 } ambulo_collision_mode;
 
@@ -36,12 +36,12 @@ typedef struct ambulo_capsule_pair {
   int one, other;
 } ambulo_capsule_pair;
 
-/* With mirrored ends the mirror image of each pair is kept apart too. */
+/* With mirrored ends the mirror image of each pair, listed or automatic, is kept apart too. */
 typedef struct ambulo_collision {
   ambulo_collision_mode mode;
   const ambulo_capsule_pair *pairs; /* [pair_count] */
   int pair_count;
-  double margin; /* air that they keep, m, >= 0 */
+  double margin; /* least gap, m, >= 0 */
 } ambulo_collision;
 
 typedef enum ambulo_obstacle_shape {
@@ -50,39 +50,39 @@ typedef enum ambulo_obstacle_shape {
   AMBULO_OBSTACLE_CAPSULE
 } ambulo_obstacle_shape;
 
-/* Something that stands still. Not with mirrored ends, where one step stands for both. */
+/* A fixed obstacle. Not allowed with mirrored ends, where one step represents both. */
 typedef struct ambulo_obstacle {
-  const char *name; /* "hurdle"; no two have the same */
+  const char *name; /* "hurdle"; unique */
   ambulo_obstacle_shape shape;
-  double center[3], half[3]; /* of a box: its middle; half its size along its own forward, left and
-                                up, > 0 */
-  double heading;            /* of a box, about up, turned to the left, rad */
-  double from[3], to[3];     /* of a capsule: ends of its line */
-  double radius;             /* of a capsule, > 0 */
-  double margin;             /* air that capsules keep from it, m, >= 0 */
-  const int *capsules;       /* [capsule_count] of the model, which keep clear; NULL: all */
+  double center[3], half[3]; /* box: its middle; half its size along its own forward, left and up,
+                                m, > 0 */
+  double heading;            /* box: about up, turned to the left, rad */
+  double from[3], to[3];     /* capsule: ends of its axis, m */
+  double radius;             /* capsule: m, > 0 */
+  double margin;             /* least gap to the model's capsules, m, >= 0 */
+  const int *capsules;       /* [capsule_count] of the model, to be kept clear; NULL: all */
   int capsule_count;
 } ambulo_obstacle;
 
-/* A point of the model is at a place from one time to another, or at one time. The place is in the
- * world, or where it is from another point of the model: two hands that keep their distance hold
+/* A point of the model is at a place during an interval, or at one time. The place is fixed in the
+ * world, or relative to another point of the model: two hands that keep their distance can hold
  * something between them. */
 typedef struct ambulo_reach {
   int point;
-  int is_relative; /* 1: `place` is the way from the point `about`, along forward, left and up */
+  int is_relative; /* 1: `place` is the offset from the point `about`, along forward, left and up */
   int about;
   double place[3];
-  double from, to;  /* s; nodes within 1e-9 s of [from, to], at least one; on a grid on events both
-                       are events. to INFINITY: until the end */
+  double from, to;  /* s; rows at the nodes within 1e-9 s of [from, to], at least one. On a grid on
+                       events both are events. to INFINITY: until the end */
   double tolerance; /* along each axis, m; 0: equations */
 } ambulo_reach;
 
-/* Off, without pairs; a box for all capsules, without size; a point that is to be named, at the
- * world's origin from 0 until the end. */
+/* Off, without pairs; a box of size 0 for all capsules; a point at the world's origin from 0 until
+ * the end, whose index must be set. */
 AMBULO_PROBLEM_DEFAULT(ambulo_collision);
 AMBULO_PROBLEM_DEFAULT(ambulo_obstacle);
 AMBULO_PROBLEM_DEFAULT(ambulo_reach);
-AMBULO_PROBLEM_DEFAULT(ambulo_capsule_pair); /* -1, to be given */
+AMBULO_PROBLEM_DEFAULT(ambulo_capsule_pair); /* -1: must be set */
 
 #ifdef __cplusplus
 }

@@ -1,14 +1,14 @@
 /* ambulo/status.h - status codes, diagnostics, allocator hook.
  *
- * Every fallible function returns an ambulo_status and leaves its outputs
- * untouched on failure, but where its comment says otherwise. A NULL that its
- * comment does not allow is E_ARGUMENT, and so is an empty name of a file or folder; functions that
- * return a plain value expect an object. A status says whether the *call* was legal and could be
- * carried out; what a solver concluded is an ambulo_verdict (solve.h), and how good the point is
- * stands in the audit (solve.h).
+ * A function that can fail returns an ambulo_status. On failure it leaves its outputs untouched,
+ * unless its comment says otherwise. A NULL argument is E_ARGUMENT unless the comment allows it; so
+ * is an empty name of a file or folder. Functions that return a plain value require an object.
  *
- * Messages for people are collected in an ambulo_diagnostics list that the
- * caller owns; the library never prints.
+ * A status says whether the *call* was legal and could be carried out. What the solver concluded is
+ * an ambulo_verdict, and how good the point is is in the ambulo_audit (both in solve.h).
+ *
+ * Messages for people are collected in an ambulo_diagnostics list that the caller owns; the library
+ * never prints.
  */
 #ifndef AMBULO_STATUS_H
 #define AMBULO_STATUS_H
@@ -34,25 +34,25 @@ extern "C" {
 
 /* ------------------------------------------------- structures that callers fill */
 
-/* Whatever a caller fills is taken from its `_default()` and changed:
+/* Start from the structure's `_default()` and change what you need:
  *
  *     ambulo_options options = ambulo_options_default();
  *     options.time_limit = 60.0;
  *
- * A structure that a function takes has its `size` as its first member; the sizes of the items of
- * its arrays, and of the parts that it holds, are members of it too (`contact_size`). All of them
- * are set by `_default()`, which is compiled into the caller. So a library that is newer than the
- * program reads the structures of the program's own headers: they grow at their ends alone, and
- * what an older one lacks is what `_default()` of the library says. A size that no header had, as
- * of a structure filled with zeros, and one beyond the library's own are refused (E_ARGUMENT).
+ * A structure passed to a function has its `size` as first member. The sizes of its array items and
+ * of its parts are members too (`contact_size`). `_default()`, which is compiled into the caller,
+ * sets them all. A newer library can therefore read the structures of an older program: structures
+ * grow only at their end, and members that the program lacks take the library's defaults. A size
+ * that no header ever had (as in a structure filled with zeros), or one larger than the library's
+ * own, is E_ARGUMENT.
  *
- * "Not set" and "off" are said in one way each:
+ * "Not set" and "off" have one form for each type:
  *
- *   a number that is left out or switched off       AMBULO_OFF, for which NaN is the test. No
- *                                                   other number means it: a limit of 0 is 0
+ *   a number that is left out or switched off       AMBULO_OFF, which is NaN: test with isnan().
+ *                                                   No other number means it: a limit of 0 is 0
  *   a bound that does not bind, an end of all time  INFINITY, -INFINITY
  *   an enumeration                                  0, its first constant: off, or what its
- *                                                   comment says; refused where one has to choose
+ *                                                   comment says; refused where a choice is needed
  *   an index (link, point, foot, coordinate)        -1
  *   a pointer; a flag or a count                    NULL; 0 */
 #define AMBULO_OFF ((double)NAN)
@@ -78,8 +78,7 @@ typedef enum ambulo_status {
 #undef AMBULO_STATUS_ENUM
 } ambulo_status;
 
-/* Short name ("E_PARSE") and one-sentence text of a status. Never NULL; the
- * strings are static. */
+/* Short name ("E_PARSE") and one-sentence text of a status. Never NULL; static strings. */
 AMBULO_API const char *ambulo_status_name(ambulo_status status);
 AMBULO_API const char *ambulo_status_text(ambulo_status status);
 
@@ -88,17 +87,19 @@ AMBULO_API int ambulo_status_exit_code(ambulo_status status);
 
 /* ----------------------------------------------------------------- defaults */
 
-/* Sets the first `bytes` bytes of the structure type `name` ("ambulo_options") to its defaults:
- * what `_default()` of the headers calls. A `size` member becomes `bytes`. Sizes of items and
- * parts, and the kind of a device or a term, on which defaults depend, are set by the caller
- * before. ambulo_problem_defaults knows a problem's definition, its parts and ambulo_options,
- * ambulo_defaults the other structures of the engine, ambulo_tool_defaults (ambulo/tools/common.h)
- * those of the tools. E_ARGUMENT, and nothing is written: another name. */
+/* Sets the first `bytes` bytes of a structure of type `name` ("ambulo_options") to its defaults;
+ * the
+ * `_default()` functions call this. A `size` member becomes `bytes`. The caller sets the sizes of
+ * items and parts beforehand, and the kind of a device or term, on which its defaults depend.
+ * ambulo_problem_defaults knows a problem's definition, its parts and ambulo_options;
+ * ambulo_defaults knows the other structures of the engine; ambulo_tool_defaults
+ * (ambulo/tools/common.h) knows those of the tools. E_ARGUMENT: unknown name; nothing is written.
+ */
 AMBULO_API ambulo_status ambulo_defaults(const char *name, void *structure, size_t bytes);
 AMBULO_API ambulo_status ambulo_problem_defaults(const char *name, void *structure, size_t bytes);
 
 /* Defines name_default() by one of those. AMBULO_DECLARATIONS_ONLY is for programs that read these
- * headers, and no C. */
+ * headers without a C compiler. */
 #ifdef AMBULO_DECLARATIONS_ONLY
 #define AMBULO_DEFAULT_BY(function, name) struct ambulo_allocator
 #else
@@ -120,8 +121,9 @@ AMBULO_API ambulo_status ambulo_problem_defaults(const char *name, void *structu
 /* All memory of an object comes from the allocator given when it was created.
  * resize(user, NULL, n) allocates, resize(user, p, n) reallocates,
  * resize(user, p, 0) frees and returns NULL. Returned memory must be aligned
- * for any type. NULL instead of an allocator means realloc/free.
- * The allocator must outlive the object. It has no size: it stays one function and its user. */
+ * for any type. NULL in place of an allocator means realloc/free.
+ * `user` must outlive the object; the structure itself is copied. It has no `size` and will not
+ * grow. */
 typedef struct ambulo_allocator {
   void *(*resize)(void *user, void *pointer, size_t size);
   void *user;
@@ -148,7 +150,8 @@ typedef struct ambulo_diagnostic {
   const char *hint;     /* "did you mean 'mass'?"; NULL: none */
 } ambulo_diagnostic;
 
-/* A list of messages; keeps the first 20 errors, 64 messages in all, and counts further errors. */
+/* A list of messages. It keeps the first 20 errors and at most 64 messages, and counts further
+ * errors. */
 typedef struct ambulo_diagnostics ambulo_diagnostics;
 
 /* NULL on failure to allocate. `allocator` may be NULL. */
@@ -161,9 +164,9 @@ AMBULO_API size_t ambulo_diagnostics_error_count(const ambulo_diagnostics *diagn
 /* Message `index`; NULL if out of range. Valid until the list changes. */
 AMBULO_API const ambulo_diagnostic *ambulo_diagnostics_get(const ambulo_diagnostics *diagnostics,
                                                            size_t index);
-/* Writes "file:line:col: error[E_X]: message\n  hint: ..." (no trailing newline,
- * always terminated when size > 0; control characters escaped) and returns the
- * length the whole text needs, like snprintf. */
+/* Writes "file:line:col: error[E_X]: message\n  hint: ..." into buffer[size] and returns the length
+ * of the whole text, like snprintf. No trailing newline; terminated if size > 0; control characters
+ * are escaped. */
 AMBULO_API size_t ambulo_diagnostics_format(const ambulo_diagnostics *diagnostics, size_t index,
                                             char *buffer, size_t size);
 
