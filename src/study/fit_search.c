@@ -29,7 +29,7 @@ enum { DAMPINGS = 4, MOST_IDLE = 2, MOST_MODEL_EVALUATIONS = 1000 };
 
 static const double difference = 0.1, longest = 4.0; /* of a step, in steps */
 static const double damping_start = 0.03, damping_least = 1e-4, damping_most = 2.0;
-static const double least_gain = 1e-6, least_distance = 1e-6;
+static const double least_gain = 1e-6, least_distance = 1e-8;
 
 typedef struct search {
   const ambulo__fit_task *task;
