@@ -57,7 +57,7 @@ check 'licence, pages and models come along' ls "$share/doc/ambulo/LICENSE" \
 finds_its_models() {
   mkdir "$work/empty"
   (cd "$work/empty" && "$root$prefix/bin/ambulo" solve pendulum_swing -o swing) 2>&1 |
-    grep -F "$share/ambulo/models/pendulum_swing.yaml is taken"
+    grep -F "using the shipped $share/ambulo/models/pendulum_swing.yaml"
 }
 check 'the installed program solves a shipped problem by its name' finds_its_models
 
