@@ -2,7 +2,7 @@
  *
  * Schema "ambulo-summary/1"; every quantity in SI units and radians. A row is named by
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
-#include "solver/verdict.h"
+#include "solver/result.h"
 #include "show/summary_json.h"
 
 #include "ambulo/parameters.h"

@@ -2,7 +2,7 @@
  * nothing in it takes NaN for zero. */
 #include "method/parameters.h"
 #include "method/point.h"
-#include "solver/candidates.h"
+#include "solver/session.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 #include "support/test.h"

@@ -2,7 +2,7 @@
 #include "show/summary_json.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
-#include "solver/dense_audit.h"
+#include "solver/dense.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"
 

@@ -1,7 +1,6 @@
 /* The audit tells a good point from a spoilt one, whoever made it. */
-#include "solver/audit.h"
-#include "ambulo/tools/load.h"
 #include "solver/result.h"
+#include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 

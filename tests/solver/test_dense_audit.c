@@ -1,6 +1,6 @@
 /* The dense audit as a result tells it: families, words, the warning, and what it says when there
  * is no finer grid or no finite motion. */
-#include "solver/dense_audit.h"
+#include "solver/dense.h"
 #include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"

@@ -138,7 +138,7 @@ static int intervals_named(int intervals, double event) {
   ambulo__events events = {1, &event};
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
-  int slip = ambulo__dense_rule_of_slip();
+  int slip = AMBULO__DENSE_RULE_SLIP;
   memset(&worst, 0, sizeof worst);
   worst.entry[slip].present = 1;
   worst.entry[slip].ratio = 2.0;
@@ -182,7 +182,7 @@ typedef struct asked {
 static void open_asked(asked *a, int intervals, double speed) {
   memset(a, 0, sizeof *a);
   ambulo__table_row friction = {.kind = AMBULO__KIND_FRICTION, .measure = AMBULO__BODY_WEIGHTS};
-  a->slip = ambulo__dense_rule_of_slip();
+  a->slip = AMBULO__DENSE_RULE_SLIP;
   a->force = ambulo__dense_rule_of_row(&friction);
   a->event = 0.24 * 0.55;
   a->events = (ambulo__events){speed > 0.0, &a->event};
@@ -320,7 +320,7 @@ static void motions_that_cannot_be_moved_are_predicted_from_the_nodes(void **sta
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
   ambulo_allocator allocator = ambulo__allocator_or_default(NULL);
-  int slip = ambulo__dense_rule_of_slip();
+  int slip = AMBULO__DENSE_RULE_SLIP;
   memset(&worst, 0, sizeof worst);
   worst.entry[slip] = (ambulo__dense_entry){.present = 1, .ratio = 2.0, .between = 2.0};
   assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
@@ -344,7 +344,7 @@ static void given_breakpoints_are_left_alone(void **state) {
   ambulo__events events = {1, &event};
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
-  int slip = ambulo__dense_rule_of_slip();
+  int slip = AMBULO__DENSE_RULE_SLIP;
   memset(&worst, 0, sizeof worst);
   worst.entry[slip].present = 1;
   worst.entry[slip].ratio = 2.0;

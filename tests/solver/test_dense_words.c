@@ -1,7 +1,7 @@
 /* What a dense audit says about each family that fails: the settings that are predicted to help,
  * the remedy where more intervals do not, and one sentence that has everything once. The audits
  * are written down here, not measured. */
-#include "solver/dense_audit.h"
+#include "solver/dense.h"
 #include "support/engine_fixture.h"
 
 typedef struct told {
@@ -27,8 +27,8 @@ static void close_told(told *t) {
 static int add(told *t, ambulo__row_kind kind, ambulo__measure measure, double ratio) {
   ambulo__table_row row = {.kind = (unsigned char)kind, .measure = (unsigned char)measure};
   int slip = kind == AMBULO__KIND_SLIP, force = kind == AMBULO__KIND_GROUND_FORCE;
-  int rule = slip    ? ambulo__dense_rule_of_slip()
-             : force ? ambulo__dense_rule_of_force()
+  int rule = slip    ? AMBULO__DENSE_RULE_SLIP
+             : force ? AMBULO__DENSE_RULE_FORCE
                      : ambulo__dense_rule_of_row(&row);
   int i = t->report.view.family_count++;
   assert_true(rule >= 0);

@@ -1,5 +1,5 @@
 /* The least violation: zero where a motion exists, balanced forces where none does. */
-#include "solver/elastic.h"
+#include "solver/explain.h"
 #include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
 #include "support/sliders.h"

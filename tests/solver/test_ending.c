@@ -1,10 +1,8 @@
 /* The ending tells which limit or which test ended a solve, and credits NLopt with nothing that it
  * did not do. */
-#include "solver/ending.h"
+#include "solver/result.h"
 #include "ambulo/tools/load.h"
 #include "solver/explain.h"
-#include "solver/result.h"
-#include "solver/verdict.h"
 #include "support/engine_fixture.h"
 #include "support/messages.h"
 

@@ -1,5 +1,5 @@
 /* Predicted memory against what is taken, counted by an allocator; absurd sizes are refused. */
-#include "solver/solve_memory.h"
+#include "solver/session.h"
 #include "ambulo/tools/load.h"
 #include "base/machine.h"
 #include "problem/nlp.h"

@@ -1,5 +1,5 @@
 /* Several starts: the same in every run, counted by valley; the solve continues from the best. */
-#include "solver/starts.h"
+#include "solver/session.h"
 #include "ambulo/tools/load.h"
 #include "solver/result.h"
 #include "support/engine_fixture.h"

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_CHOSEN_POINTS_H
 #define AMBULO_TESTS_CHOSEN_POINTS_H
 
-#include "solver/candidates.h"
+#include "solver/session.h"
 #include "support/engine_fixture.h"
 
 typedef struct chosen {

@@ -4,7 +4,7 @@
 #define AMBULO_TEST_SUGGEST_CASES_H
 
 #include "ambulo/tools/tools.h"
-#include "solver/suggest.h"
+#include "solver/explain.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"
 

@@ -58,7 +58,7 @@ struct ambulo_problem {
       *extended_model;  /* `model` where capsules have rows (problem/queries.c); else NULL */
   ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
-  struct ambulo__free_section *free; /* one block (solver/free_problem.c); NULL: nothing is free */
+  struct ambulo__free_section *free; /* one block (solver/free_trial.c); NULL: nothing is free */
   const ambulo_problem *extends;     /* what this one extends (problem/variants.c); NULL: none */
   ambulo_problem *owned_base;        /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;

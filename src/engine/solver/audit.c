@@ -1,4 +1,4 @@
-/* solver/audit.c - see audit.h.
+/* solver/audit.c - how good a point is (result.h).
  *
  * First-order conditions. With g = grad J, the rows with c within the active tolerance
  * or below count as active, A; and those within ten times that whose multiplier times c, what
@@ -15,16 +15,12 @@
  *
  * kkt is relative to g, which vanishes where the objective reaches zero, its lower bound: there
  * the bound itself is the proof (engine.c, negligible_objective).
- *
- * Reading order: result.h, audit.c, verdict.c, candidates.h; between the nodes: dense.h and what
- * it lists; why there is no solution: explain.h, elastic.h, relax.c, suggest.h.
  */
-#include "solver/audit.h"
+#include "solver/result.h"
 #include "base/arithmetic.h"
 #include "method/point.h"
 #include "method/model_step.h"
 #include "method/row_roles.h"
-#include "solver/verdict.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,27 +4,24 @@
  * fine: every row that such a grid would have, and two quantities that no row covers,
  *
  *   slip          how far a loaded point of a foot moves along the ground away from where the
- *                 nodes have it (dense_slip.c)
+ *                 nodes have it
  *   ground_force  how far the ground's normal force is from the straight line through its
- *                 values at the nodes (dense_force.c)
+ *                 values at the nodes
  *
- * Each quantity is a sample: a rule (its family and unit, dense_rules.c), a place, a time, a value
+ * Each quantity is a sample: a rule (its family and unit), a place, a time, a value
  * and the tolerance that holds there. Value / tolerance makes them comparable: the ratio.
  *
- *   dense_grid.c     the finer grid; the motion there
- *   dense_rows.c, dense_slip.c, dense_force.c    samples
- *   dense_worst.c    the worst sample of each rule
- *   dense_events.c   where nodes fall beside the times at which contacts change
- *   dense_cure.c     the intervals that would bring it under its tolerance
- *   dense_words.c    all of it in words
- *   dense_audit.c    the steps in order
+ *   dense_grid.c      the finer grid and the motion there; where nodes fall beside the times at
+ *                     which contacts change; the rules
+ *   dense_samples.c   samples, and the worst of each rule
+ *   dense_cure.c      the intervals that would bring it under its tolerance
+ *   dense_audit.c     the steps in order, and all of it in words
  */
 #ifndef AMBULO_SOLVER_DENSE_H
 #define AMBULO_SOLVER_DENSE_H
 
 #include "contact/schedule.h"
-#include "problem/nlp.h"
-#include "solver/dense_rules.h"
+#include "solver/result.h"
 
 #include <math.h>
 
@@ -54,9 +51,53 @@ static inline double ambulo__dense_channel(const ambulo__dense *dense, int node,
   return dense->channel[ambulo__lane_index(node, channels, channel)];
 }
 
+/* ------------------------------------------------------------------- rules */
+
+/* What is asked of a motion between its nodes, family by family: the one table of tolerances
+ * (docs/results.md and include/ambulo/solve.h repeat it). The first two are of what no row covers.
+ */
+enum { AMBULO__DENSE_RULE_SLIP, AMBULO__DENSE_RULE_FORCE, AMBULO__DENSE_RULES = 24 };
+
+/* What helps where more intervals do not. */
+typedef enum ambulo__dense_remedy {
+  AMBULO__REMEDY_NONE,
+  AMBULO__REMEDY_CONTROL_POINTS, /* joint limits on the control points */
+  AMBULO__REMEDY_TOLERANCE,      /* contacts within a tolerance, then more time intervals */
+  AMBULO__REMEDY_TRANSFER        /* a load that passes gradually from foot to foot */
+} ambulo__dense_remedy;
+
+typedef struct ambulo__dense_rule {
+  ambulo__row_kind kind;
+  ambulo__measure measure; /* AMBULO__OTHER_MEASURE: any */
+  double tolerance;        /* in that, or a share of the limit */
+  /* Where two nodes hold a row its ratio goes down with this power of the number of time intervals,
+   * at least: with the trajectory's kept; with the trajectory's in proportion. 0: it need not go
+   * down at all. */
+  double order_alone, order_both;
+  /* Beside an event it goes down with the gap to the node: where a contact ends to the first
+   * power, where it begins to this one. */
+  double order_landing;
+  int of_limit;  /* 1: the tolerance is a share */
+  int at_events; /* 1: its rows change when a contact begins or ends */
+  ambulo__dense_remedy remedy;
+} ambulo__dense_rule;
+
+/* 0 <= index < AMBULO__DENSE_RULES */
+const ambulo__dense_rule *ambulo__dense_rule_at(int index);
+/* The rule of a row; -1: rows on the ends, the same on every grid, and rows of the caller, which
+ * are not asked between the nodes. */
+int ambulo__dense_rule_of_row(const ambulo__table_row *row);
+
+/* What the violation of a row of limits is compared with: the larger of the coordinate's two
+ * bounds. Where both are zero: 1 rad/s or 1 m/s; the body weight, times 0.1 m for a torque. The row
+ * belongs to `problem`. */
+double ambulo__dense_limit_size(const ambulo_problem *problem, const ambulo__table_row *row);
+
+/* ----------------------------------------------------------------- samples */
+
 /* One value at one time. Names are static or live in the model. */
 typedef struct ambulo__dense_sample {
-  int rule; /* dense_rules.h */
+  int rule; /* index of the table */
   const char *family, *subject, *detail, *unit;
   double time, value, tolerance; /* in unit; value >= 0, or not finite */
 } ambulo__dense_sample;
@@ -125,5 +166,44 @@ ambulo_status ambulo__dense_cure_find(const ambulo_problem *problem, const doubl
                                       const ambulo__events *events,
                                       const ambulo__dense_worst *worst,
                                       const ambulo_allocator *allocator, ambulo__dense_cure *cure);
+
+/* ------------------------------------------------------------------ report */
+
+enum {
+  AMBULO__DENSE_SETTINGS_SIZE = 160,
+  AMBULO__DENSE_LINE_SIZE = 480,
+  AMBULO__DENSE_SUMMARY_SIZE = 1200
+};
+
+/* The public view and the memory it points into. Names in it are static or live in the model. */
+typedef struct ambulo__dense_report {
+  ambulo_dense_audit view;
+  ambulo__dense_worst worst;
+  int family_rule[AMBULO__DENSE_RULES]; /* whose family each is */
+  ambulo_dense_family family[AMBULO__DENSE_RULES];
+  char settings[AMBULO__DENSE_RULES][AMBULO__DENSE_SETTINGS_SIZE];
+  char advice[AMBULO__DENSE_RULES][AMBULO__DENSE_LINE_SIZE];
+  const char *line[AMBULO__DENSE_RULES];
+  char line_text[AMBULO__DENSE_RULES][AMBULO__DENSE_LINE_SIZE];
+  char summary[AMBULO__DENSE_SUMMARY_SIZE];
+  char reason[AMBULO__DENSE_LINE_SIZE];
+} ambulo__dense_report;
+
+/* Looks at result->x on a grid `samples` times as fine: fills result->dense (families, worst
+ * first) and the audit's dense_violation. Where there is no such grid, or it is large and time is
+ * up (`in_time` 0), the report says so. E_MEMORY. */
+ambulo_status ambulo__dense_audit(const ambulo_problem *problem, int samples, int in_time,
+                                  const ambulo_allocator *allocator, ambulo_result *result);
+
+/* After the verdict, for points that satisfy every row at the nodes: what would help, in words,
+ * and one warning. `in_time` 0: the intervals that help are not looked for. E_MEMORY. */
+ambulo_status ambulo__dense_advise(const ambulo_problem *problem, int in_time,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo_result *result);
+
+/* Settings, advice, lines and the summary of a report whose families are there.
+ * `cure`: NULL when nothing was predicted. */
+void ambulo__dense_words(const ambulo_problem *problem, ambulo_verdict verdict,
+                         const ambulo__dense_cure *cure, ambulo__dense_report *report);
 
 #endif

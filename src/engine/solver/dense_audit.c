@@ -1,5 +1,7 @@
-/* solver/dense_audit.c - see dense_audit.h and dense.h. */
-#include "solver/dense_audit.h"
+/* solver/dense_audit.c - the audit between the nodes (dense.h): its families, and in words a line a
+ * family that fails and one sentence. */
+#include "solver/explain.h"
+#include "solver/dense.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -121,6 +123,192 @@ ambulo_status ambulo__dense_audit(const ambulo_problem *p, int samples, int in_t
   none.worst = report->view.samples ? 0.0 : (double)NAN;
   result->audit.dense_violation = report->view.family_count ? report->family[0].violation : none;
   return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------- words */
+
+/* contacts hold within this where more time intervals than the trajectory's are asked for */
+#define CONTACT_TOLERANCE "constraints.contact_tolerance=0.002"
+
+/* ... and this many times as many: a trajectory that is held at three nodes for each interval has
+ * no more room between them, one held at two sometimes has */
+enum { ROOM = 3 };
+
+typedef struct wording {
+  const ambulo_problem *problem;
+  const ambulo__dense_cure *cure; /* NULL: nothing was predicted */
+  ambulo__dense_report *report;
+  const char *brief[AMBULO__DENSE_RULES]; /* of each family, what the sentence says about it */
+} wording;
+
+/* appends; text beyond the end is cut */
+static void append(char *text, size_t size, const char *more) {
+  size_t used = strlen(text);
+  (void)snprintf(text + used, size - used, "%s", more);
+}
+
+/* ---------------------------------------------------------------- settings */
+
+/* "--set time.intervals=50", and the trajectory's intervals where they are not so already */
+static void set_intervals(const wording *w, int intervals, int spline_intervals, char *text) {
+  char part[80];
+  int asked = w->problem->definition.spline_intervals;
+  (void)snprintf(part, sizeof part, "--set time.intervals=%d", intervals);
+  append(text, AMBULO__DENSE_SETTINGS_SIZE, part);
+  if (spline_intervals == asked || (asked == 0 && spline_intervals == intervals)) return;
+  (void)snprintf(part, sizeof part, " --set trajectory.intervals=%d", spline_intervals);
+  append(text, AMBULO__DENSE_SETTINGS_SIZE, part);
+}
+
+static const char more_do_not_help[] = "more intervals do not help";
+static const char out_of_reach[] =
+    "too far off on a grid this coarse to predict how many intervals it takes";
+static const char not_predicted[] = "no time was left to predict how many intervals it takes";
+static const char not_finite[] = "not finite";
+static const char again[] = "again with ";
+
+static const char *remedy_of(const wording *w, const ambulo__dense_rule *rule, char *settings,
+                             char *advice) {
+  const ambulo_problem *p = w->problem;
+  int spline = ambulo__basis_intervals(p->basis), own = p->definition.intervals;
+  switch (rule->remedy) {
+  case AMBULO__REMEDY_CONTROL_POINTS:
+    if (ambulo__basis_get_kind(p->basis) != AMBULO__BSPLINE) break;
+    append(settings, AMBULO__DENSE_SETTINGS_SIZE, "--set constraints.joint_limits=control_points");
+    append(advice, AMBULO__DENSE_LINE_SIZE, "limits on the control points hold at all times");
+    return again;
+  case AMBULO__REMEDY_TOLERANCE:
+    if (!ambulo__dense_is_strict(p)) break;
+    append(settings, AMBULO__DENSE_SETTINGS_SIZE, "--set " CONTACT_TOLERANCE " ");
+    set_intervals(w, ROOM * (own > spline ? own : spline), spline, settings);
+    append(advice, AMBULO__DENSE_LINE_SIZE,
+           "more intervals do not help while contacts are exact; within a tolerance the same "
+           "trajectory has room for more nodes");
+    return again;
+  case AMBULO__REMEDY_TRANSFER:
+    append(advice, AMBULO__DENSE_LINE_SIZE,
+           "more intervals do not help: where contacts change the support region jumps, and the "
+           "zero-moment point crosses over between two nodes; with ground_reaction (kind: "
+           "shared) the load passes gradually, and each foot has a centre of pressure of "
+           "its own");
+    return more_do_not_help;
+  case AMBULO__REMEDY_NONE:
+    break;
+  }
+  append(advice, AMBULO__DENSE_LINE_SIZE, more_do_not_help);
+  return more_do_not_help;
+}
+
+/* settings and advice of one family that fails; returns what the sentence says */
+static const char *advise(const wording *w, int i) {
+  int rule = w->report->family_rule[i], own = w->problem->definition.intervals;
+  char *settings = w->report->settings[i], *advice = w->report->advice[i], look[100] = "";
+  const char *brief = again;
+  if (isnan(w->report->worst.entry[rule].ratio)) {
+    append(advice, AMBULO__DENSE_LINE_SIZE, "the motion overflows there");
+    return not_finite;
+  }
+  if (!w->cure) {
+    append(advice, AMBULO__DENSE_LINE_SIZE, not_predicted);
+    return not_predicted;
+  }
+  if (w->cure->cured[rule]) {
+    set_intervals(w, w->cure->intervals, w->cure->spline_intervals, settings);
+    append(advice, AMBULO__DENSE_LINE_SIZE, "more intervals help");
+  } else if (w->cure->out_of_reach[rule]) {
+    set_intervals(w, 2 * own, ambulo__dense_spline_intervals(w->problem, 2 * own), look);
+    append(advice, AMBULO__DENSE_LINE_SIZE, out_of_reach);
+    append(advice, AMBULO__DENSE_LINE_SIZE, "; look again with ");
+    append(advice, AMBULO__DENSE_LINE_SIZE, look);
+    brief = out_of_reach;
+  } else {
+    brief = remedy_of(w, ambulo__dense_rule_at(rule), settings, advice);
+  }
+  return brief;
+}
+
+/* ------------------------------------------------------------------- lines */
+
+/* "slip: 0.0162 m (toe_medial_r along the ground, t = 0.1296 s; tolerance 0.001 m): ..." */
+static void write_line(const wording *w, int i) {
+  ambulo__dense_report *report = w->report;
+  const ambulo_dense_family *f = &report->family[i];
+  const ambulo_violation *v = &f->violation;
+  char value[80], place[300];
+  char *line = report->line_text[report->view.line_count];
+  (void)snprintf(value, sizeof value, "%.3g %s", v->worst, v->unit);
+  if (!ambulo__bodies_in_words(w->problem, v, place, sizeof place))
+    (void)snprintf(place, sizeof place, "%s%s%s, t = %.4g s", v->subject, v->detail[0] ? " " : "",
+                   v->detail, v->time);
+  (void)snprintf(line, AMBULO__DENSE_LINE_SIZE, "%s: %s (%s; tolerance %.3g %s): %s%s%s", v->family,
+                 isfinite(v->worst) ? value : not_finite, place, f->tolerance, v->unit, f->advice,
+                 f->settings[0] ? "; " : "", f->settings);
+  report->line[report->view.line_count++] = line;
+}
+
+/* ---------------------------------------------------------------- sentence */
+
+/* 1 if the sentence says the same about both; of what holds it says nothing */
+static int is_alike(const wording *w, int a, int b) {
+  return w->brief[a] == w->brief[b] && strcmp(w->report->settings[a], w->report->settings[b]) == 0;
+}
+
+static int kind_of(const wording *w, int i) {
+  return (int)ambulo__dense_rule_at(w->report->family_rule[i])->kind;
+}
+
+/* "slip, contact: again with --set time.intervals=50", of family i and those after it */
+static void append_group(const wording *w, int i, char *text) {
+  ambulo__dense_report *report = w->report;
+  const char *last = NULL;
+  for (int k = i; k < report->view.family_count; k++) {
+    int kind = kind_of(w, k), named = 0;
+    if (!is_alike(w, i, k)) continue;
+    for (int j = i; j < k; j++) named |= is_alike(w, i, j) && kind_of(w, j) == kind;
+    if (named) continue;
+    if (last) append(text, AMBULO__DENSE_SUMMARY_SIZE, ", ");
+    append(text, AMBULO__DENSE_SUMMARY_SIZE, last = report->family[k].violation.family);
+  }
+  append(text, AMBULO__DENSE_SUMMARY_SIZE, ": ");
+  append(text, AMBULO__DENSE_SUMMARY_SIZE, w->brief[i]);
+  append(text, AMBULO__DENSE_SUMMARY_SIZE, report->settings[i]);
+}
+
+static void write_summary(const wording *w, const char *verdict) {
+  ambulo__dense_report *report = w->report;
+  char *text = report->summary;
+  if (report->view.samples == 0) {
+    (void)snprintf(text, AMBULO__DENSE_SUMMARY_SIZE,
+                   "%s at the nodes; between them nothing is known: %s", verdict, report->reason);
+    return;
+  }
+  if (report->view.failing == 0) return;
+  (void)snprintf(text, AMBULO__DENSE_SUMMARY_SIZE, "%s at the nodes, not between them", verdict);
+  for (int i = 0; i < report->view.family_count; i++) {
+    int said = 0;
+    if (report->family[i].holds) continue;
+    for (int k = 0; k < i; k++) said |= is_alike(w, k, i);
+    if (said) continue;
+    append(text, AMBULO__DENSE_SUMMARY_SIZE, "; ");
+    append_group(w, i, text);
+  }
+}
+
+void ambulo__dense_words(const ambulo_problem *p, ambulo_verdict verdict,
+                         const ambulo__dense_cure *cure, ambulo__dense_report *report) {
+  wording w = {.problem = p, .cure = cure, .report = report};
+  report->view.line_count = 0;
+  report->summary[0] = '\0';
+  for (int i = 0; i < report->view.family_count; i++) {
+    ambulo_dense_family *f = &report->family[i];
+    if (f->holds) continue;
+    report->settings[i][0] = report->advice[i][0] = '\0';
+    w.brief[i] = advise(&w, i);
+    f->settings = report->settings[i];
+    f->advice = report->advice[i];
+    write_line(&w, i);
+  }
+  write_summary(&w, ambulo_verdict_name(verdict));
 }
 
 /* ------------------------------------------------------------------ advice */

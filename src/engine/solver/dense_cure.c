@@ -1,7 +1,7 @@
 /* solver/dense_cure.c - how many intervals would bring the ratios under 1.
  *
  * Between nodes that both hold a row its violation goes down with a power p of the number of
- * intervals (dense_rules.h). Beside an event it grows from the last node that holds the row, at a
+ * intervals (dense.h). Beside an event it grows from the last node that holds the row, at a
  * rate that the motion has: e at the end of contacts, e' at their beginning. Predicted for N'
  * intervals
  *

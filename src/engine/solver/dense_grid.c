@@ -1,13 +1,14 @@
-/* solver/dense_grid.c - the same motion and the same rows on a finer grid of time nodes.
+/* solver/dense_grid.c - the same motion and the same rows on a finer grid of time nodes; the rules
+ * that it is held against.
  *
  * The finer problem has the trajectory's own grid, hence the same unknowns, and no objective. User
  * rows and terms may count nodes; they are not asked off the nodes. Events are moved with their
  * contacts, except those at 0 and T, which are nodes on every grid.
  */
-#include "problem/nlp.h"
 #include "base/arithmetic.h"
 #include "solver/dense.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST_INTERVALS = 100000 }; /* of a problem */
@@ -130,4 +131,138 @@ void ambulo__dense_close(ambulo__dense *dense) {
   ambulo_problem_free(dense->fine);
   dense->channel = dense->row_value = NULL;
   dense->fine = NULL;
+}
+
+/* ------------------------------------------------------------------ events */
+
+/* How nodes fall beside the times at which rows change (contact/schedule.h).
+ *
+ * Rows of a contact stand at nodes with from <= t < to. Between the last of them and `to`, and
+ * between `from` and the first of them, nothing holds the contact: these two gaps decide how far it
+ * is off, more than the number of nodes does. The tip's clearance begins within a swing
+ * (contact/clearance.c) and counts as an event too. On a grid on events both gaps are zero.
+ */
+
+double ambulo__dense_gap_before(double event, double duration, int intervals) {
+  double position = event / duration * intervals, slack = AMBULO__INSTANT / duration * intervals;
+  double node = ceil(position - slack) - 1.0;
+  return (position - node) * duration / intervals;
+}
+
+double ambulo__dense_gap_after(double event, double duration, int intervals) {
+  double position = event / duration * intervals, slack = AMBULO__INSTANT / duration * intervals;
+  return fmax(0.0, ceil(position - slack) - position) * duration / intervals;
+}
+
+int ambulo__dense_near_event(const ambulo__events *events, double time, double duration,
+                             int intervals) {
+  for (int i = 0; i < events->count; i++) {
+    double event = events->time[i];
+    double before = ambulo__dense_gap_before(event, duration, intervals);
+    double after = ambulo__dense_gap_after(event, duration, intervals);
+    if (time >= event - before - AMBULO__INSTANT && time <= event + after + AMBULO__INSTANT)
+      return 1;
+  }
+  return 0;
+}
+
+/* both gaps are zero where a node of a grid on events is one */
+static int has_node(const ambulo_problem *p, double event) {
+  double part;
+  int k = ambulo__node_at(p, event, &part);
+  return fabs(p->times[k] - event) <= AMBULO__INSTANT ||
+         fabs(p->times[k + 1] - event) <= AMBULO__INSTANT;
+}
+
+int ambulo__dense_beside_event(const ambulo_problem *p, const ambulo__events *events, double time) {
+  const ambulo_problem_definition *d = &p->definition;
+  if (d->grid == AMBULO_GRID_UNIFORM)
+    return ambulo__dense_near_event(events, time, d->duration, d->intervals);
+  for (int i = 0; i < events->count; i++) {
+    double part;
+    int k = ambulo__node_at(p, events->time[i], &part);
+    if (!has_node(p, events->time[i]) && time >= p->times[k] - AMBULO__INSTANT &&
+        time <= p->times[k + 1] + AMBULO__INSTANT)
+      return 1;
+  }
+  return 0;
+}
+
+/* ------------------------------------------------------------------- rules */
+
+/* Tolerances: 1 mm, 0.005 rad, 0.02 body weights, 2 % of a speed or torque limit. Rows
+ * on centres of pressure have the load in them, as (17') counts zero-moment points by the force:
+ * 5 cm under 0.4 % of the weight are 0.2 mm.
+ *
+ * Orders: of what lies between two nodes that both hold a row, and beside events, on the safe side
+ * of what bench/bench_dense.c sees on the shipped problems, so that what is predicted from them
+ * comes true there (docs/results.md has the measured ones).
+ */
+
+#define REMEDY(name) AMBULO__REMEDY_##name
+
+static const ambulo__dense_rule rules[AMBULO__DENSE_RULES] = {
+    /* kind, measure, tolerance; order_alone, order_both, order_landing; of_limit, at_events */
+    {AMBULO__KIND_SLIP, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_GROUND_PENETRATION, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_FOOT_STRIKE, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CONTACT, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CONTACT, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.5, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CLEARANCE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CLEARANCE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_ZMP, AMBULO__METRES, 0.001, 0.0, 0.0, 1.0, 0, 1, REMEDY(TRANSFER)},
+    {AMBULO__KIND_NORMAL_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_PRESSURE, AMBULO__METRES, 0.001, 1.0, 0.0, 0.75, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FRICTION, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FREE_MOMENT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FLIGHT, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_FLIGHT, AMBULO__METRES, 0.02, 1.0, 0.0, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_JOINT_LIMIT, AMBULO__RADIANS, 0.005, 1.5, 0.0, 1.0, 0, 0, REMEDY(CONTROL_POINTS)},
+    {AMBULO__KIND_JOINT_LIMIT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 0, REMEDY(CONTROL_POINTS)},
+    {AMBULO__KIND_SPEED_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.5, 0.0, 1.0, 1, 0, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_TORQUE_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.0, 0.0, 1.0, 1, 0,
+     REMEDY(TOLERANCE)},
+    {AMBULO__KIND_COLLISION, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_OBSTACLE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_REACH, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_TRACKING_TUBE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_TRACKING_TUBE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, REMEDY(NONE)},
+};
+
+const ambulo__dense_rule *ambulo__dense_rule_at(int index) {
+  return &rules[index];
+}
+
+static int covers(const ambulo__dense_rule *rule, const ambulo__table_row *row) {
+  return rule->kind == row->kind &&
+         (rule->measure == AMBULO__OTHER_MEASURE || rule->measure == row->measure);
+}
+
+int ambulo__dense_rule_of_row(const ambulo__table_row *row) {
+  int i = 0;
+  while (i < AMBULO__DENSE_RULES && !covers(&rules[i], row)) i++;
+  return i < AMBULO__DENSE_RULES ? i : -1;
+}
+
+/* of a limit on a quantity that may not be anything but zero */
+static double size_of_none(const ambulo_model *model, const ambulo_coordinate *c, int is_torque) {
+  if (!is_torque) return 1.0;
+  double weight = ambulo__model_weight(model);
+  double size = c->type == AMBULO_REVOLUTE ? 0.1 * weight : weight;
+  return size > 0.0 ? size : 1.0;
+}
+
+double ambulo__dense_limit_size(const ambulo_problem *p, const ambulo__table_row *row) {
+  int channel = p->table.terms[row->first_term].channel;
+  int is_torque = channel >= ambulo__channel_tau(&p->channels, 0);
+  int first =
+      is_torque ? ambulo__channel_tau(&p->channels, 0) : ambulo__channel_qd(&p->channels, 0);
+  const ambulo_coordinate *c = &p->model->coordinates[channel - first];
+  const double *bounds = is_torque ? c->torque : c->speed;
+  double size = 0.0;
+  for (int i = 0; i < 2; i++) {
+    if (isfinite(bounds[i])) size = fmax(size, fabs(bounds[i]));
+  }
+  return size > 0.0 ? size : size_of_none(p->model, c, is_torque);
 }

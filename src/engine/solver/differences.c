@@ -7,7 +7,7 @@
  *     df* / dp = dL(x*, lambda; p) / dp,     L = f(x; p) - sum_r lambda_r c_r(x; p)
  *
  * for rows c_r = 0 and c_r >= 0, lambda_r >= 0 of the latter. The definition is made a problem
- * again with p a little smaller and a little larger (variant.h), at the same x and lambda:
+ * again with p a little smaller and a little larger (sensitivity.h), at the same x and lambda:
  *
  *     D(h) = (L(p + h) - L(p - h)) / 2 h = dL/dp + a h^2 + b h^4 + ...
  *
@@ -45,7 +45,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEVELS = 7 };
+enum { LEVELS = 7, LIMITED_KINDS = AMBULO_LIMITED_TORQUE - AMBULO_LIMITED_POSITION + 1 };
 static const double first_step = 0.05, first_of_events = 0.01; /* of what a person can picture */
 static const double ratio = 4.0;                               /* of one step to the next */
 static const double settled = 1e-9, unsettled = 1e-4, linear = 1e-8, apart = 1e-6;
@@ -69,13 +69,10 @@ typedef struct stationary {
   const double *x, *multiplier;
   double *block; /* all of the arrays */
   side here, low, high;
+  double *pull; /* [d][kinds of limits][2]: what their bounds add to dL */
 } stationary;
 
 /* ------------------------------------------------------------------ one side */
-
-static int same_text(const char *a, const char *b) {
-  return a == b || strcmp(a, b) == 0;
-}
 
 /* no time has come near a neighbour's: phases have as many intervals as before */
 static int same_grid(const double *a, const double *b, int intervals) {
@@ -96,8 +93,8 @@ static int same_rows(const ambulo_problem *a, const ambulo_problem *b) {
   for (int r = 0; r < a->rows; r++) {
     const ambulo__table_row *one = &a->table.rows[r], *other = &b->table.rows[r];
     if (one->kind != other->kind || one->node != other->node || one->before != other->before ||
-        one->relation != other->relation || !same_text(one->subject, other->subject) ||
-        !same_text(one->detail, other->detail))
+        one->relation != other->relation || strcmp(one->subject, other->subject) != 0 ||
+        strcmp(one->detail, other->detail) != 0)
       return 0;
   }
   return 1;
@@ -151,23 +148,18 @@ static ambulo_status kind_of(const ambulo_problem *p, const ambulo_problem *othe
 }
 
 /* E_MEMORY */
-static ambulo_status evaluate(const stationary *s, const ambulo_problem *other, side *out) {
-  ambulo_workspace *w = NULL;
-  ambulo_status status = ambulo__workspace_create_for_values(other, &s->p->allocator, &w);
-  if (status) return status;
-  out->kind = ambulo__evaluate(w, s->x) ? SIDE_MISSING : SIDE_THERE;
-  if (out->kind == SIDE_THERE) take(w, out);
-  ambulo_workspace_free(w);
-  return AMBULO_OK;
-}
-
 static ambulo_status look_again(const stationary *s, side *out) {
   ambulo_problem *other = NULL;
+  ambulo_workspace *w = NULL;
   ambulo_status status = ambulo__variant_problem(&s->p->variant, NULL, 0, &other);
   if (status == AMBULO_E_MEMORY) return status;
   out->kind = SIDE_MISSING;
   status = other ? kind_of(s->p->problem, other, &out->kind) : AMBULO_OK;
-  if (!status && out->kind == SIDE_THERE) status = evaluate(s, other, out);
+  if (!status && out->kind == SIDE_THERE)
+    status = ambulo__workspace_create_for_values(other, &s->p->allocator, &w);
+  if (w && ambulo__evaluate(w, s->x)) out->kind = SIDE_MISSING;
+  if (w && out->kind == SIDE_THERE) take(w, out);
+  ambulo_workspace_free(w);
   ambulo_problem_free(other);
   return status;
 }
@@ -187,10 +179,10 @@ static ambulo_status look(const stationary *s, const ambulo__parameter *n, doubl
   if (n->enters == AMBULO__ENTERS_ALL) {
     status = look_again(s, out);
   } else {
-    ambulo_term *term = &ambulo__variant_terms(&s->p->variant)[n->term];
+    ambulo_term *term = ambulo__variant_own(&s->p->variant.definition.terms[n->term]);
     if (term->strength_is_limits)
       ambulo__strength_of_limits(s->p->variant.coordinates, s->p->problem->coordinates, term->price,
-                                 ambulo__variant_array(term->strength));
+                                 ambulo__variant_own(term->strength));
     out->value[0] =
         term->weight * ambulo__term_value(s->workspace, term, 0.0, s->workspace->term_slope);
     out->kind = isfinite(out->value[0]) ? SIDE_THERE : SIDE_MISSING;
@@ -278,31 +270,36 @@ static ambulo_status differ(stationary *s, ambulo__parameter *n, int *found) {
 
 /* --------------------------------------------------------------------- limits */
 
-/* -sum lambda dc/db over the rows of one kind of limit, [d][2]: y - lo >= 0, hi - y >= 0. With
- * mirrored ends a row may be the partner's (contact/row_families.h): its upper bound has dc/db = 1
- * and its lower one -1, whichever side it is on. */
-static void pull_at_limits(const stationary *s, ambulo_limited what, double *by) {
+static int index_of(int coordinate, int what, int is_upper) {
+  return 2 * (LIMITED_KINDS * coordinate + what - AMBULO_LIMITED_POSITION) + is_upper;
+}
+
+/* -sum lambda dc/db over the rows of limits: y - lo >= 0, hi - y >= 0. With mirrored
+ * ends a row may be the partner's (contact/row_families.h): its upper bound has dc/db = 1 and its
+ * lower one -1, whichever side it is on. */
+static void pull_at_limits(const stationary *s) {
   const ambulo_problem *p = s->p->problem;
-  memset(by, 0, 2 * (size_t)p->coordinates * sizeof *by);
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
-    if (s->multiplier[r] == 0.0 || row->relation == AMBULO_EQUAL ||
-        ambulo__row_kind_entry_of(row->kind)->limited != (int)what)
+    int what = ambulo__row_kind_entry_of(row->kind)->limited;
+    if (s->multiplier[r] == 0.0 || row->relation == AMBULO_EQUAL || what == AMBULO__NOT_LIMITED)
       continue;
     const ambulo__row_term *term = p->table.terms + row->first_term;
-    ambulo__bounds bounds = ambulo__bounds_of(&p->definition, term->channel % p->coordinates, what);
+    ambulo__bounds bounds =
+        ambulo__bounds_of(&p->definition, term->channel % p->coordinates, (ambulo_limited)what);
     const ambulo__bound *bound = term->coefficient > 0.0 ? &bounds.low : &bounds.high;
-    by[2 * bound->owner + bound->is_upper] -=
+    s->pull[index_of(bound->owner, what, bound->is_upper)] -=
         bound->is_upper ? s->multiplier[r] : -s->multiplier[r];
   }
 }
 
-/* which limit a member of the variant's coordinates is: 2 i + side */
-static int limit_at(const ambulo__variant *v, ambulo_limited what, const double *at) {
-  for (int i = 0; i < v->origin->coordinates; i++) {
-    const double *limits = ambulo__limits_of(&v->coordinates[i], what);
-    if (at == limits || at == limits + 1) return 2 * i + (int)(at - limits);
-  }
+/* which limit a member of the variant's coordinates is */
+static int limit_at(const ambulo__variant *v, const double *at, int *what) {
+  for (int i = 0; i < v->origin->coordinates; i++)
+    for (*what = AMBULO_LIMITED_POSITION; *what <= AMBULO_LIMITED_TORQUE; ++*what) {
+      const double *limits = ambulo__limits_of(&v->coordinates[i], (ambulo_limited)*what);
+      if (at == limits || at == limits + 1) return index_of(i, *what, (int)(at - limits));
+    }
   return -1;
 }
 
@@ -319,37 +316,29 @@ static ambulo_status pull_at_strengths(stationary *s, ambulo__parameter *n) {
   return AMBULO_OK;
 }
 
-/* derivatives of all limits; untouched ones are 0 */
-static ambulo_status differ_limits(stationary *s, double *by) {
-  ambulo_status status = AMBULO_OK;
-  for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
-    pull_at_limits(s, (ambulo_limited)what, by);
-    for (int i = 0; i < s->p->count && !status; i++) {
-      ambulo__parameter *n = &s->p->list[i];
-      if (n->enters != AMBULO__ENTERS_LIMITS) continue;
-      const ambulo__address *m = &s->p->address[n->address];
-      if (limit_at(&s->p->variant, (ambulo_limited)what, m->at) < 0) continue;
-      n->derivative = 0.0;
-      for (int k = 0; k < n->addresses; k++)
-        n->derivative += m[k].sign * by[limit_at(&s->p->variant, (ambulo_limited)what, m[k].at)];
-      if (what == AMBULO_LIMITED_TORQUE) status = pull_at_strengths(s, n);
-    }
-  }
-  return status;
+/* of one limit; of an untouched one 0 */
+static ambulo_status differ_limit(stationary *s, ambulo__parameter *n) {
+  const ambulo__address *m = &s->p->address[n->address];
+  int what = AMBULO__NOT_LIMITED;
+  n->derivative = 0.0;
+  for (int k = 0; k < n->addresses; k++)
+    n->derivative += m[k].sign * s->pull[limit_at(&s->p->variant, m[k].at, &what)];
+  return what == AMBULO_LIMITED_TORQUE ? pull_at_strengths(s, n) : AMBULO_OK;
 }
 
 /* ------------------------------------------------------------------------ all */
 
-static ambulo_status differ_all(stationary *s, double *by) {
+static ambulo_status differ_all(stationary *s) {
   ambulo__parameters *p = s->p;
-  ambulo_status status = differ_limits(s, by);
+  ambulo_status status = AMBULO_OK;
   int kept = 0;
+  pull_at_limits(s);
   for (int i = 0; i < p->count && !status; i++) {
     ambulo__parameter *n = &p->list[i];
     if (n->enters == AMBULO__ENTERS_ALL) take(s->workspace, &s->here);
-    int found = n->derivative != 0.0;
-    if (n->enters != AMBULO__ENTERS_LIMITS) status = differ(s, n, &found);
-    if (found) p->list[kept++] = *n;
+    int found = 1, limits = n->enters == AMBULO__ENTERS_LIMITS;
+    status = limits ? differ_limit(s, n) : differ(s, n, &found);
+    if (found && !(limits && n->derivative == 0.0)) p->list[kept++] = *n;
   }
   p->count = kept;
   return status;
@@ -361,11 +350,13 @@ static ambulo_status open_point(ambulo__parameters *p, const double *x, const do
   const ambulo_problem *problem = p->problem;
   size_t parts = (size_t)problem->definition.term_count + (size_t)problem->rows + 1;
   *s = (stationary){.p = p, .x = x, .multiplier = multiplier};
-  s->block = ambulo__alloc(&p->allocator, 3 * parts, sizeof *s->block);
+  size_t limits = 2 * LIMITED_KINDS * (size_t)problem->coordinates;
+  s->block = ambulo__alloc(&p->allocator, 3 * parts + limits, sizeof *s->block);
   if (!s->block) return AMBULO_E_MEMORY;
   s->here.value = s->block;
   s->low.value = s->block + parts;
   s->high.value = s->block + 2 * parts;
+  s->pull = s->block + 3 * parts;
   ambulo_status status = ambulo__workspace_create_for_values(problem, &p->allocator, &s->workspace);
   return status ? status : ambulo__evaluate(s->workspace, x);
 }
@@ -378,12 +369,9 @@ static void close_point(stationary *s) {
 ambulo_status ambulo__parameters_differ(ambulo__parameters *p, const double *x,
                                         const double *multiplier) {
   stationary s;
-  size_t limits = 2 * (size_t)p->problem->coordinates;
-  double *by = ambulo__alloc(&p->allocator, limits, sizeof *by);
-  ambulo_status status = by ? open_point(p, x, multiplier, &s) : AMBULO_E_MEMORY;
-  if (!status) status = differ_all(&s, by);
-  if (by) close_point(&s);
-  ambulo__free(&p->allocator, by);
+  ambulo_status status = open_point(p, x, multiplier, &s);
+  if (!status) status = differ_all(&s);
+  close_point(&s);
   return status;
 }
 

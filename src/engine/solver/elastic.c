@@ -1,4 +1,4 @@
-/* solver/elastic.c - see elastic.h.
+/* solver/elastic.c - the least violation that a problem can be brought to (explain.h).
  *
  * Levenberg-Marquardt. At x, with rows c and gradients J (divided by s, times w), the model
  *
@@ -16,7 +16,7 @@
  *
  * mu falls when E decreases as the model predicts, and rises when E does not decrease.
  */
-#include "solver/elastic.h"
+#include "solver/explain.h"
 #include "base/arithmetic.h"
 #include "method/metric.h"
 #include "method/row_roles.h"

@@ -1,17 +1,17 @@
-/* solver/explain.c - see explain.h.
+/* solver/explain.c - why a solve ended without a solution, and all of it in words.
  *
- * Budget: two model steps (elastic.h) for each evaluation of the solve, about as long again as
+ * Budget: two model steps (elastic.c) for each evaluation of the solve, about as long again as
  * it took, and at least what takes some tenths of a second, so that solves that fail at once are
  * explained too. Steps and not seconds, so that the same problem gets the same explanation on a
  * busy machine; but never past the time limit of the solve.
  */
-#include "solver/verdict.h"
 #include "solver/explain.h"
 
 #include "contact/row_families.h"
-#include "solver/audit.h"
+#include "contact/schedule.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,6 +20,182 @@ static const double residue = 1e-6;
 static const double steps_per_evaluation = 2.0;
 static const double least_work = 3e9, step_overhead = 1e5; /* operations */
 static const double on_limit_gap = 1e-4;                   /* relative to the row's size */
+
+void ambulo__explain_line(ambulo__explanation *out, const char *format, ...) {
+  if (out->view.line_count >= AMBULO__MOST_LINES) return;
+  char *text = out->text[out->view.line_count];
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(text, AMBULO__LINE_SIZE, format, arguments);
+  va_end(arguments);
+  out->line[out->view.line_count++] = text;
+}
+
+/* ----------------------------------------------------------------- no walk */
+
+/* Says so when a gait without flight that failed asks for what is no walk (contact/schedule.h). */
+
+static void explain_speed(const ambulo__task *t, ambulo__explanation *out) {
+  double runs = sqrt(AMBULO__RUNNING_FROUDE * t->gravity * t->leg);
+  if (t->froude <= AMBULO__RUNNING_FROUDE) return;
+  if (t->froude > 1.0) {
+    ambulo__explain_line(out,
+                         "no walk: a walk at this speed would need a pull of %.3g body weights to "
+                         "keep the body on its arc over a straight leg, and gravity gives 1",
+                         t->froude);
+  } else {
+    ambulo__explain_line(out,
+                         "hardly a walk: the arc over a straight leg takes %.2g of the body weight "
+                         "at this speed",
+                         t->froude);
+  }
+  ambulo__explain_line(out,
+                       "  running is how people move so fast, from about %.2g m/s on legs of %.3g "
+                       "m (Froude number 0.5); it has flight: gait.phases.toe_off below 0.5",
+                       runs, t->leg);
+}
+
+static void explain_step(const ambulo__task *t, ambulo__explanation *out) {
+  if (t->step <= AMBULO__LONGEST_STEP * t->leg) return;
+  ambulo__explain_line(out,
+                       "no walk: a walk with these steps would need legs of %.3g m: people's "
+                       "longest steps are about %.3g leg lengths, here %.3g m",
+                       t->step / AMBULO__LONGEST_STEP, AMBULO__LONGEST_STEP,
+                       AMBULO__LONGEST_STEP * t->leg);
+}
+
+static void explain_grade(const ambulo_problem_definition *d, const ambulo__task *t,
+                          ambulo__explanation *out) {
+  const ambulo_ground_reaction *r = &d->ground_reaction;
+  if (r->kind == AMBULO_REACTION_NONE || !(fabs(t->grade) > r->friction)) return;
+  ambulo__explain_line(out,
+                       "no walk: feet slip on a slope of %.3g deg unless friction is %.3g or more; "
+                       "it is %.3g",
+                       57.29577951308232 * atan(t->grade), fabs(t->grade), r->friction);
+}
+
+void ambulo__explain_task(const ambulo_problem *problem, ambulo__explanation *out) {
+  const ambulo_problem_definition *d = &problem->definition;
+  ambulo__task task = ambulo__task_of(d);
+  int before = out->view.line_count;
+  ambulo__span flight;
+  if (!task.is_gait || ambulo__flight_span(d, &flight)) return;
+  explain_speed(&task, out);
+  explain_step(&task, out);
+  explain_grade(d, &task, out);
+  if (out->view.line_count > before && task.speed > 0.0)
+    ambulo__explain_line(out,
+                         "  asked for: %.3g m/s in steps of %.3g m, %.3g a second, Froude number "
+                         "v^2 / (g l) %.3g, step %.3g leg lengths",
+                         task.speed, task.step, task.step_time > 0.0 ? 1.0 / task.step_time : 0.0,
+                         task.froude, task.step / task.leg);
+}
+
+/* ------------------------------------------------------------------- words */
+
+/* One fact a line, with name, time and unit. */
+
+/* "knee_angle_r lower" */
+static const char *name_of(const char *subject, const char *detail, char buffer[96]) {
+  const char *space = subject[0] && detail[0] ? " " : "";
+  (void)snprintf(buffer, 96, "%s%s%s", subject, space, detail);
+  return buffer;
+}
+
+static void place(const ambulo_violation *v, char *text, size_t size) {
+  char name[96];
+  (void)snprintf(text, size, "%.4g %s at %s, t = %.4g s", v->worst, v->unit,
+                 name_of(v->subject, v->detail, name), v->time);
+}
+
+static void contradictions(ambulo__explanation *out) {
+  char where[200];
+  for (int i = 0; i < out->view.contradictory_count; i++) {
+    const ambulo_violation *v = &out->contradictory[i];
+    place(v, where, sizeof where);
+    ambulo__explain_line(
+        out,
+        "contradictory equality: %s (%s) cannot hold together with the equalities before "
+        "it",
+        v->family, where);
+  }
+}
+
+/* in conflict: at a minimum of all violations. A search that was cut short shows none. */
+static void conflicts(ambulo__explanation *out) {
+  char where[200];
+  if (out->view.conflict_count == 0) return;
+  ambulo__explain_line(out, out->view.complete
+                                ? "in conflict, where every row gives way a little:"
+                                : "still violated, where every row gives way a little:");
+  for (int i = 0; i < out->view.conflict_count; i++) {
+    place(&out->conflict[i].shared, where, sizeof where);
+    ambulo__explain_line(out, "  %s: %s", out->conflict[i].shared.family, where);
+  }
+}
+
+static void relaxations(ambulo__explanation *out) {
+  char where[200];
+  int alone = 0;
+  for (int i = 0; i < out->view.conflict_count; i++) {
+    const ambulo_conflict *c = &out->conflict[i];
+    if (c->alone == 0)
+      ambulo__explain_line(out, "dropping %s alone did not make the problem feasible",
+                           c->shared.family);
+    if (c->alone != 1) continue;
+    alone++;
+    place(&c->relaxation, where, sizeof where);
+    ambulo__explain_line(out, "relaxing %s alone is enough: by %s", c->shared.family, where);
+    for (int k = 0; k < c->other_count; k++) {
+      place(&c->others[k], where, sizeof where);
+      ambulo__explain_line(out, "  and %s", where);
+    }
+  }
+  if (out->view.complete && alone == 0 && out->view.conflict_count > 0)
+    ambulo__explain_line(out, "no single family of rows is to blame: several have to give way");
+}
+
+static void limits(ambulo__explanation *out) {
+  char name[96];
+  for (int i = 0; i < out->view.on_limit_count; i++) {
+    const ambulo_on_limit *l = &out->on_limit[i];
+    (void)name_of(l->subject, l->detail, name);
+    if (l->from < l->to) {
+      ambulo__explain_line(out, "on its limit: %s %s, %.4g %s, t = %.4g to %.4g s (%d nodes)",
+                           l->family, name, l->bound, l->unit, l->from, l->to, l->nodes);
+    } else {
+      ambulo__explain_line(out, "on its limit: %s %s, %.4g %s, t = %.4g s", l->family, name,
+                           l->bound, l->unit, l->from);
+    }
+  }
+}
+
+void ambulo__explain_lines(const ambulo_problem *problem, const ambulo_result *result,
+                           ambulo__explanation *out) {
+  char where[200];
+  const ambulo_violation *worst = &result->audit.violation;
+  place(worst, where, sizeof where);
+  ambulo__explain_line(out, "worst row of the point returned: %s, %s", worst->family, where);
+  ambulo__explain_task(problem, out);
+  contradictions(out);
+  if (out->view.feasible_point) {
+    ambulo__explain_line(
+        out, "a motion that satisfies every row at the nodes exists near the point returned: "
+             "the solver missed it; allow more time or evaluations, or start from another motion");
+    return;
+  }
+  conflicts(out);
+  relaxations(out);
+  limits(out);
+  if (!out->view.complete)
+    ambulo__explain_line(out, "cut short by the time limit: not every family could be tried");
+  if (!out->suggestion[0]) return;
+  ambulo__explain_line(out, "suggestion: %s", out->suggestion);
+  for (int i = 0; i < out->view.setting_count; i++)
+    ambulo__explain_line(out, "  --set '%s'", out->settings[i]);
+}
+
+/* ---------------------------------------------------------- contradictions */
 
 static void list_contradictions(const ambulo__engine *e, const ambulo_result *result,
                                 ambulo__explanation *out) {
@@ -154,8 +330,4 @@ ambulo_status ambulo__explain(ambulo__engine *e, ambulo_result *result) {
   ambulo_status status = explain(e, result, &pool, out);
   ambulo__pool_clear(&pool);
   return status;
-}
-
-const ambulo_explanation *ambulo_result_explanation(const ambulo_result *result) {
-  return result->explanation ? &result->explanation->view : NULL;
 }

@@ -10,7 +10,7 @@
 #include "base/diagnostics.h"
 #include "solver/result.h"
 #include "problem/nlp.h"
-#include "solver/options.h"
+#include "solver/session.h"
 
 #include <math.h>
 

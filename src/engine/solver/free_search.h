@@ -2,8 +2,6 @@
  *
  * A trial is one inner solve at some values: problem, result, messages. The run keeps the best one,
  * from which the next starts.
- *
- * Reading order: outer.h, trial.c, outer.c, outcome.h.
  */
 #ifndef AMBULO_SOLVER_FREE_SEARCH_H
 #define AMBULO_SOLVER_FREE_SEARCH_H
@@ -41,8 +39,9 @@ typedef struct ambulo__outer {
   ambulo_ending ending; /* a limit, or the caller; NONE: none */
 } ambulo__outer;
 
-/* trial.c: builds and solves the problem at run->latest.value, from the best solution so far; F and
- * dF/dp. Whatever goes wrong with the values is HUGE_VAL; E_MEMORY and the like end the run. */
+/* free_trial.c: builds and solves the problem at run->latest.value, from the best solution so far;
+ * F and dF/dp. Whatever goes wrong with the values is HUGE_VAL; E_MEMORY and the like end the run.
+ */
 ambulo_status ambulo__outer_try(ambulo__outer *run);
 /* 1 when a limit was met or the caller said stop (run->ending). */
 int ambulo__outer_over(ambulo__outer *run);
@@ -51,14 +50,8 @@ void ambulo__outer_drop(ambulo__outer_trial *trial);
 /* -1, 1: p_i is at its lower, its upper bound; 0: between. */
 int ambulo__outer_bound(const ambulo__outer *run, const double *value, int i);
 
-/* free_problem.c: the parameters, of which a copy is kept, are what the problem has free. E_MEMORY.
+/* The parameters, of which a copy is kept, are what the problem has free. E_MEMORY.
  */
 ambulo_status ambulo__free_keep(ambulo_problem *problem, const ambulo_parameters *parameters);
-/* The problem with the numbers of these names at `values`; it owns its model. E_ARGUMENT: there is
- * no such number. Other errors: as ambulo_problem_create. */
-ambulo_status ambulo__free_problem(const ambulo_problem *problem,
-                                   const ambulo_parameters *parameters, const double *values,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo_problem **at);
 
 #endif

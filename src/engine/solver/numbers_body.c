@@ -58,7 +58,7 @@ static void add_load(ambulo__parameters *p, int i) {
 
 void ambulo__parameters_of_body(ambulo__parameters *p) {
   const ambulo__model_units *units = &p->problem->model->units;
-  ambulo__body *body = &p->variant.body;
+  ambulo__body_numbers *body = &p->variant.body;
   if (body->mass > 0.0 && units->mass != 1.0) {
     ambulo__parameter_add(p, AMBULO__MASS, &body->mass, "body mass", "subject.mass");
     ambulo__parameter_within(p, 1.0, 1000.0);
@@ -195,7 +195,7 @@ static void add_device(const device_keys *k) {
 
 void ambulo__parameters_of_devices(ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
-  ambulo_device *all = ambulo__variant_devices(&p->variant);
+  ambulo_device *all = ambulo__variant_own(p->variant.definition.devices);
   for (int i = 0; i < d->device_count; i++) {
     device_keys k = {p, all, &all[i], -1, -1, 1.0};
     int partner = -1;
@@ -248,7 +248,7 @@ static int is_not_in_file(const ambulo__parameters *p, const void *item, const a
 
 /* with its times nodes go along, on grids on events where nothing else begins or ends then */
 void ambulo__parameters_of_holds(ambulo__parameters *p) {
-  ambulo_hold *holds = ambulo__variant_holds(&p->variant);
+  ambulo_hold *holds = ambulo__variant_own(p->variant.definition.holds);
   char path[AMBULO__PARAMETER_TEXT], of[AMBULO__PARAMETER_TEXT];
   for (int i = 0; i < p->problem->definition.hold_count; i++) {
     name_path(p->problem, &holds[i], i, path);

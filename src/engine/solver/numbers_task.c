@@ -48,7 +48,7 @@ typedef struct entry {
 
 static void add_entry(const term_keys *t, int i, ambulo__quantity quantity, const entry *e) {
   const ambulo_model *model = t->p->problem->model;
-  double sign, *array = ambulo__variant_array(e->array);
+  double sign, *array = ambulo__variant_own(e->array);
   int m = partner_of(t, i, &sign), pair = m >= 0 && (m != i || e->own != e->other);
   char label[AMBULO__PARAMETER_TEXT], index[2][8] = {"", ""};
   if (e->stride > 1) {
@@ -161,7 +161,7 @@ static void add_term(const term_keys *t) {
 }
 
 void ambulo__parameters_of_terms(ambulo__parameters *p) {
-  ambulo_term *terms = ambulo__variant_terms(&p->variant);
+  ambulo_term *terms = ambulo__variant_own(p->variant.definition.terms);
   p->next.enters = AMBULO__ENTERS_TERM;
   for (int k = 0; k < p->problem->definition.term_count; k++) {
     term_keys t = {p, &terms[k], NULL, {0}};
@@ -194,7 +194,7 @@ static int is_idle(const ambulo__parameters *p, const void *item, const ambulo__
 static void add_tube(ambulo__parameters *p, int t, int i) {
   const ambulo_problem *problem = p->problem;
   const ambulo_coordinate *c = &problem->model->coordinates[i];
-  double sign, *width = ambulo__variant_array(p->variant.definition.tubes[t].half_width);
+  double sign, *width = ambulo__variant_own(p->variant.definition.tubes[t].half_width);
   int m = ambulo__parameter_partner(problem, i, &sign), pair = m >= 0 && m != i;
   char label[AMBULO__PARAMETER_TEXT];
   if (!isfinite(width[i]) || width[i] == 0.0 || (pair && m < i)) return;
@@ -251,8 +251,8 @@ static int is_not_asked(const ambulo__parameters *p, const void *item, const amb
 static void add_bodies(ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->variant.definition;
   const ambulo_point *points = p->problem->model->points;
-  ambulo_obstacle *obstacles = ambulo__variant_obstacles(&p->variant);
-  ambulo_reach *reaches = ambulo__variant_reaches(&p->variant);
+  ambulo_obstacle *obstacles = ambulo__variant_own(p->variant.definition.obstacles);
+  ambulo_reach *reaches = ambulo__variant_own(p->variant.definition.reaches);
   char path[AMBULO__PARAMETER_TEXT], name[AMBULO__PARAMETER_TEXT];
   for (int o = 0; o < d->obstacle_count; o++) {
     (void)snprintf(path, sizeof path, "obstacles[%s]", obstacles[o].name);

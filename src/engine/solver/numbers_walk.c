@@ -229,7 +229,8 @@ static int is_bound(const foothold *f) {
 /* number k of a member of the foothold's contacts */
 static void add_of_foothold(const foothold *f, const ambulo__member *m, int k) {
   const ambulo_problem_definition *d = &f->p->problem->definition;
-  char *own = (char *)ambulo__variant_contacts(&f->p->variant), label[AMBULO__PARAMETER_TEXT];
+  char *own = (char *)ambulo__variant_own(f->p->variant.definition.contacts),
+       label[AMBULO__PARAMETER_TEXT];
   char key[40];
   int first = (int)(f->first - d->contacts), count = f->p->count;
   ambulo__member_label(m, k, "", label);
@@ -299,7 +300,7 @@ static void name_ends(ambulo_contact *contacts, int ends, int first,
 static void add_contact_time(ambulo__parameters *p, int first) {
   static const char *const keys[2] = {"from", "to"};
   const ambulo_problem_definition *d = &p->problem->definition;
-  ambulo_contact *contacts = ambulo__variant_contacts(&p->variant);
+  ambulo_contact *contacts = ambulo__variant_own(p->variant.definition.contacts);
   double *at = end_of(contacts, first);
   int ends = 2 * d->contact_count, count = p->count;
   char label[AMBULO__PARAMETER_TEXT];
@@ -343,7 +344,7 @@ static void add_end_values(ambulo__parameters *p) {
                                              AMBULO__TURNING_JOLT};
   static const ambulo__quantity sliding[] = {AMBULO__STEP_LENGTH, AMBULO__SPEED, AMBULO__JOLT};
   const ambulo_problem_definition *d = &p->problem->definition;
-  ambulo_end_value *values = ambulo__variant_end_values(&p->variant);
+  ambulo_end_value *values = ambulo__variant_own(p->variant.definition.end_values);
   char label[AMBULO__PARAMETER_TEXT];
   for (int e = 0; e < d->end_value_count; e++) {
     ambulo_end_value *end = &values[e];

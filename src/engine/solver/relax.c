@@ -1,6 +1,6 @@
 /* solver/relax.c - families of rows in conflict, and what each alone would have to give.
  *
- * 1. Every row gives way (elastic.h, all weights 1). The families that stay violated at the
+ * 1. Every row gives way (elastic.c, all weights 1). The families that stay violated at the
  *    minimum are in conflict: their forces hold each other in balance.
  * 2. For each of these, the others are made stiff (weight 1000) and the family alone gives
  *    way. When the others then hold, it suffices to relax this family, by its worst violation:
@@ -10,9 +10,7 @@
  * 3. Of the family that gives way most easily, only one limit, or only the travel of periodic
  *    and mirrored ends, is tried: one number is better advice than three.
  */
-#include "solver/verdict.h"
 #include "solver/explain.h"
-#include "solver/audit.h"
 #include "base/arithmetic.h"
 
 #include <math.h>

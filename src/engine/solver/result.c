@@ -1,8 +1,9 @@
-/* solver/result.c - memory of a result and access to it. */
-#include "solver/result.h"
-#include "method/run.h"
+/* solver/result.c - memory of a result and access to it; the verdict that its audit supports, and
+ * what is reported of the run that made it. */
+#include "solver/explain.h"
 
 #include <math.h>
+#include <nlopt.h>
 #include <string.h>
 
 ambulo_status ambulo__result_create(const ambulo_problem *p, const ambulo_allocator *allocator,
@@ -101,4 +102,127 @@ const char *ambulo_result_ending(const ambulo_result *r) {
 }
 ambulo_ending ambulo_result_ending_code(const ambulo_result *r) {
   return r->ending_code;
+}
+
+const ambulo_explanation *ambulo_result_explanation(const ambulo_result *r) {
+  return r->explanation ? &r->explanation->view : NULL;
+}
+
+/* ----------------------------------------------------------------------- names */
+
+typedef struct wording {
+  const char *name, *text;
+} wording;
+
+#define WORDING(id, name, text) {name, text},
+static const wording verdicts[] = {AMBULO_VERDICT_LIST(WORDING)};
+static const wording endings[] = {AMBULO_ENDING_LIST(WORDING)};
+#undef WORDING
+
+static wording wording_of_verdict(ambulo_verdict verdict) {
+  if (verdict < AMBULO_NOT_JUDGED || verdict > AMBULO_INTERRUPTED)
+    return (wording){"unknown", "unknown verdict"};
+  return verdicts[verdict];
+}
+
+static wording wording_of_ending(ambulo_ending ending) {
+  if (ending < AMBULO_ENDING_NONE || ending > AMBULO_ENDING_SOLVES)
+    return (wording){"unknown", "unknown ending"};
+  return endings[ending];
+}
+
+const char *ambulo_verdict_name(ambulo_verdict verdict) {
+  return wording_of_verdict(verdict).name;
+}
+const char *ambulo_verdict_text(ambulo_verdict verdict) {
+  return wording_of_verdict(verdict).text;
+}
+const char *ambulo__ending_name(ambulo_ending ending) {
+  return wording_of_ending(ending).name;
+}
+const char *ambulo__ending_text(ambulo_ending ending) {
+  return wording_of_ending(ending).text;
+}
+
+/* --------------------------------------------------------------------- verdict */
+
+int ambulo_verdict_is_solution(ambulo_verdict verdict) {
+  return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE;
+}
+
+double ambulo__relative(const ambulo_violation *v) {
+  return v->worst / v->size;
+}
+
+static int is_limit(ambulo_ending ending) {
+  return ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_EVALUATIONS ||
+         ending == AMBULO_ENDING_TIME;
+}
+
+/* (A.4) what violation and KKT residual allow to say */
+ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_options *options,
+                                  ambulo_ending ending) {
+  if (audit->fault.kind != AMBULO_FAULT_NONE || !isfinite(audit->violation.worst))
+    return AMBULO_NUMERIC_FAILURE;
+  int feasible = ambulo__relative(&audit->violation) <= options->feasibility_tolerance;
+  int stationary = audit->kkt <= options->optimality_tolerance;
+  if (feasible && (stationary || audit->at_lower_bound)) return AMBULO_OPTIMAL;
+  if (ending == AMBULO_ENDING_NOT_FINITE) return AMBULO_NUMERIC_FAILURE;
+  if (ending == AMBULO_ENDING_CALLER) return AMBULO_INTERRUPTED;
+  if (feasible) return AMBULO_FEASIBLE;
+  if (ending == AMBULO_ENDING_BREAKDOWN) return AMBULO_NUMERIC_FAILURE; /* shows no conflict */
+  return is_limit(ending) ? AMBULO_LIMIT_REACHED : AMBULO_INFEASIBLE;
+}
+
+/* --------------------------------------------------------------------- reports */
+
+void ambulo__report_families(const ambulo_result *r, double tolerance, ambulo_diagnostics *list) {
+  if (r->verdict != AMBULO_INFEASIBLE) return;
+  for (int f = 0; f < r->families; f++) {
+    const ambulo_violation *v = &r->family[f];
+    if (!(ambulo__relative(v) > tolerance)) continue;
+    ambulo__warning(list, ambulo__nowhere, NULL,
+                    "no point was found that satisfies %s: %s (%s) at t = %.6g s is off by %.3g %s",
+                    v->family, v->subject, v->detail, v->time, v->worst, v->unit);
+  }
+}
+
+void ambulo__ending_of_faults(ambulo__run *run) {
+  int gave_up = run->ending == AMBULO_ENDING_STALLED || run->ending == AMBULO_ENDING_NO_DESCENT ||
+                run->ending == AMBULO_ENDING_NOT_RESTORED ||
+                run->ending == AMBULO_ENDING_BREAKDOWN || run->ending == AMBULO_ENDING_NLOPT;
+  if (gave_up && run->faults_lately) {
+    run->ending = AMBULO_ENDING_NOT_FINITE;
+  } else if (run->ending == AMBULO_ENDING_NOT_RESTORED && run->breakdowns) {
+    run->ending = AMBULO_ENDING_BREAKDOWN;
+  }
+}
+
+void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diagnostics *list) {
+  char text[AMBULO__FAULT_TEXT];
+  if (run->own_gradients) {
+    int major, minor, patch;
+    nlopt_version(&major, &minor, &patch);
+    ambulo__note(
+        list, ambulo__nowhere,
+        "NLopt %d.%d.%d does not form the multipliers that NLopt 2.7.1 forms; each row was "
+        "given its own gradient, which takes longer",
+        major, minor, patch);
+  }
+  if (r->verdict == AMBULO_NUMERIC_FAILURE && r->audit.fault.kind == AMBULO_FAULT_NONE)
+    r->audit.fault = run->fault;
+  if (r->audit.fault.kind != AMBULO_FAULT_NONE) {
+    ambulo_fault_text(&r->audit.fault, text, sizeof text);
+    ambulo__warning(list, ambulo__nowhere, NULL, "%s", text);
+  } else if (run->faults > 0) {
+    ambulo_fault_text(&run->first_fault, text, sizeof text);
+    ambulo__note(list, ambulo__nowhere, "%d of %d points were rejected; at the first %s",
+                 run->faults, run->evaluations, text);
+  }
+}
+
+void ambulo__settle_verdict(const ambulo__run *run, ambulo_result *r) {
+  const ambulo_explanation *e = ambulo_result_explanation(r);
+  if (r->verdict != AMBULO_LIMIT_REACHED || run->ending != AMBULO_ENDING_ITERATIONS || !e) return;
+  if (e->complete && !e->feasible_point && e->conflict_count > 0) r->verdict = AMBULO_INFEASIBLE;
 }

@@ -1,15 +1,15 @@
-/* solver/result.h - what a solve leaves behind. */
+/* solver/result.h - what a solve leaves behind, how good it is, and the verdict on it. */
 #ifndef AMBULO_SOLVER_RESULT_H
 #define AMBULO_SOLVER_RESULT_H
 
-#include "problem/nlp.h"
+#include "method/engine.h"
 
 #define AMBULO__ENDING_SIZE 400
 
 struct ambulo__explanation;  /* solver/explain.h */
-struct ambulo__dense_report; /* solver/dense_audit.h */
-struct ambulo__outcome;      /* solver/free_outcome.h */
-struct ambulo__valleys;      /* solver/starts.h */
+struct ambulo__dense_report; /* solver/dense.h */
+struct ambulo__outcome;      /* solver/free_search.c */
+struct ambulo__valleys;      /* solver/solve.c */
 struct ambulo__history;      /* method/run.h */
 
 struct ambulo_result {
@@ -35,9 +35,56 @@ struct ambulo_result {
   char ending[AMBULO__ENDING_SIZE];
 };
 
-/* Sized for `problem`; not judged, the audit that of an unknown point. E_MEMORY.
- */
+/* Sized for `problem`; not judged, the audit that of an unknown point. E_MEMORY. */
 ambulo_status ambulo__result_create(const ambulo_problem *problem,
                                     const ambulo_allocator *allocator, ambulo_result **result);
+
+/* ----------------------------------------------------------------- verdict */
+
+/* worst / size: what the feasibility tolerance is compared with. */
+double ambulo__relative(const ambulo_violation *violation);
+
+/* Name and text of AMBULO_ENDING_LIST; never NULL. */
+const char *ambulo__ending_name(ambulo_ending ending);
+const char *ambulo__ending_text(ambulo_ending ending);
+
+/* A feasible point that is a KKT point or at the objective's lower bound is optimal however the
+ * solver ended; one with a value or a derivative that is not finite never is. */
+ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_options *options,
+                                  ambulo_ending ending);
+
+/* A method that gave up where values or derivatives were not finite failed for that reason. */
+void ambulo__ending_of_faults(ambulo__run *run);
+
+/* Nothing that was not finite stays unsaid: of the result as a warning, of points that the search
+ * gave up as a note. */
+void ambulo__report_faults(const ambulo__run *run, ambulo_result *result,
+                           ambulo_diagnostics *diagnostics);
+
+/* Every family that could not be satisfied, and by how much it would have to give: warnings. */
+void ambulo__report_families(const ambulo_result *result, double tolerance,
+                             ambulo_diagnostics *diagnostics);
+
+/* The method's own iteration limit is no answer where the least violation was found, and is not
+ * zero: then no more iterations would have helped. */
+void ambulo__settle_verdict(const ambulo__run *run, ambulo_result *result);
+
+/* audit.c: how good a point is, recomputed from its unknowns alone. */
+
+/* Fills result (x must be set): objective, terms, rows, violations per family,
+ * multipliers, KKT residual, rank, and what is not finite. `engine` belongs to the same
+ * problem; its state is used up. A run that was stopped and is late (run.h) gets what takes one
+ * evaluation, the rest stays unknown. E_MEMORY. */
+ambulo_status ambulo__audit(ambulo__engine *engine, const ambulo_options *options,
+                            ambulo_result *result);
+
+/* Of a point that no engine could be made for: objective, terms, rows, violations. What it takes
+ * gradients for stays unknown. E_MEMORY. */
+ambulo_status ambulo__audit_values(ambulo_workspace *workspace, ambulo_result *result);
+
+/* Violation of one row's value: |c| or max(0, -c); infinite when it is not finite. */
+double ambulo__row_violation(const ambulo_problem *problem, int row, double value);
+/* The same with its names. */
+ambulo_violation ambulo__violation_of(const ambulo_problem *problem, int row, double value);
 
 #endif

@@ -39,7 +39,7 @@ static int compare(const void *left, const void *right) {
   return a->order - b->order;
 }
 
-void ambulo__parameters_say(ambulo__parameters *p, double objective) {
+static void say_all(ambulo__parameters *p, double objective) {
   for (int i = 0; i < p->count; i++) {
     say(&p->list[i], objective);
     p->list[i].order = i;
@@ -125,7 +125,7 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
     status =
         ambulo__parameters_differ(&p, ambulo_result_x(result), ambulo_result_multipliers(result));
   if (!status) {
-    ambulo__parameters_say(&p, ambulo_result_objective(result));
+    say_all(&p, ambulo_result_objective(result));
     status = fill(&p, block);
   }
   block->parameters = p.list;

@@ -1,15 +1,65 @@
 /* solver/sensitivity.h - the numbers of a problem: where each stands, what it is called, and the
  * derivative of the best objective with it.
  *
- * Reading order: variant.h, variant.c; sensitivity.h, numbers_walk.c, numbers_body.c,
- * numbers_task.c; differences.c; sensitivity.c.
+ * parameters.c has the list of numbers and the variant in which they are moved; numbers_walk.c,
+ * numbers_body.c and numbers_task.c fill it; differences.c finds the derivatives; sensitivities.c
+ * puts them in words.
  */
 #ifndef AMBULO_SOLVER_SENSITIVITY_H
 #define AMBULO_SOLVER_SENSITIVITY_H
 
 #include "ambulo/sensitivity.h"
 #include "problem/members.h"
-#include "solver/variant.h"
+#include "problem/nlp.h"
+
+/* ----------------------------------------------------------------- variant */
+
+/* A problem's definition with numbers moved, and the problem that it makes.
+ *
+ * Numbers are moved where they stand: in a deep copy of the definition, in the limits of the model,
+ * in what the body weighs, how tall it is and what it climbs, in the rule of the gait. The rest
+ * follows as it does for a file read with those numbers: contacts, duration and travel of a gait
+ * (contact/schedule.h), the model (model/conditions.h), what is written for another body
+ * (problem/definition.h). A variant without a moved number makes the problem it came from.
+ */
+
+/* Of the body, beside its limits. */
+typedef struct ambulo__body_numbers {
+  double mass, stature;            /* kg without loads, m */
+  double slope;                    /* rad */
+  double load[AMBULO__MOST_LOADS]; /* kg, of ambulo_model.loads */
+} ambulo__body_numbers;
+
+typedef struct ambulo__variant {
+  ambulo_allocator allocator;
+  const ambulo_problem *origin;
+  ambulo_problem_definition definition; /* a copy, whose arrays may be written to */
+  ambulo_coordinate *coordinates;       /* [d] likewise: range, speed, torque count */
+  ambulo__body_numbers body;
+  ambulo__gait_rule rule;
+} ambulo__variant;
+
+/* Of a problem, which must outlive it. E_MEMORY leaves what can be cleared. */
+ambulo_status ambulo__variant_init(const ambulo_problem *problem, const ambulo_allocator *allocator,
+                                   ambulo__variant *variant);
+
+/* An array of the copy, which the definition has as const, to be written to. */
+static inline void *ambulo__variant_own(const void *array) {
+  union {
+    const void *view;
+    void *array;
+  } of = {array};
+  return of.array;
+}
+
+/* The problem as it stands now. Checked, it owns its model and outlives all else; not checked, it
+ * may share the model, and numbers may be beyond the ranges of members a little: for differences.
+ * Errors: as ambulo_problem_create. */
+ambulo_status ambulo__variant_problem(const ambulo__variant *variant,
+                                      ambulo_diagnostics *diagnostics, int checked,
+                                      ambulo_problem **problem);
+
+/* ----------------------------------------------------------------- numbers */
 
 enum { AMBULO__PARAMETER_TEXT = 320 };
 
@@ -35,7 +85,7 @@ typedef struct ambulo__parameter {
   double with_sign;
   char words[3 * AMBULO__PARAMETER_TEXT];
   ambulo__quantity quantity;
-  double value, derivative, step; /* SI, rad; step after ambulo__parameters_say */
+  double value, derivative, step; /* SI, rad; step: a change that a person can picture */
   double travel;                  /* d/dp of the definition's travel, m */
   double share;                   /* of f*, by one step; NaN where f* is not positive */
   int order;                      /* before sorting */
@@ -55,7 +105,7 @@ typedef struct ambulo__parameters {
   int count, capacity;
   ambulo__address *address;
   int addresses, address_capacity;
-  ambulo__parameter next; /* part, term and moves_events of those added from now on */
+  ambulo__parameter next; /* enters, term and moves_events of those added from now on */
   int failed;             /* sticky: memory ran out */
 } ambulo__parameters;
 
@@ -126,8 +176,6 @@ ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
                                            int count, const ambulo_allocator *allocator,
                                            ambulo_sensitivity_list **list);
 
-/* Steps, shares and words; the largest share comes first. */
-void ambulo__parameters_say(ambulo__parameters *parameters, double objective);
 /* parameters.c: the change that a person can picture, in unit, and in words. */
 double ambulo__parameter_step(const ambulo__parameter *parameter);
 const char *ambulo__parameter_more(const ambulo__parameter *parameter);

@@ -1,22 +1,189 @@
-/* solver/session.c - see session.h.
+/* solver/session.c - one call from its arguments to its result: its options, its memory, the points
+ * it came by, their audit.
  *
  * Whatever happened, the result's numbers are those of the audit (solver/audit.c). A point that
  * satisfies the rows and is not shown to be optimal is the next start: AUGLAG begins afresh there,
  * with the damping and the penalty of a start, and often sees further.
  */
 #include "solver/session.h"
-#include "solver/audit.h"
-#include "solver/dense_audit.h"
-#include "solver/ending.h"
-#include "solver/explain.h"
-#include "solver/verdict.h"
-#include "method/pipeline.h"
-#include "problem/nlp.h"
-#include "solver/solve_memory.h"
-#include "solver/options.h"
 
+#include "base/arithmetic.h"
+#include "base/machine.h"
+#include "base/sized.h"
+#include "method/metric.h"
+#include "method/pipeline.h"
+#include "method/point.h"
+#include "problem/definition.h"
+#include "solver/dense.h"
+#include "solver/explain.h"
+
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* -------------------------------------------------------------------- options */
+
+void ambulo_problem_options_fill(const ambulo_problem *problem, ambulo_options *filled,
+                                 size_t size) {
+  ambulo_options usual =
+      problem->file_options.size != 0 ? problem->file_options : ambulo_options_default();
+  usual.size = size;
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
+}
+
+ambulo_status ambulo__options_own(const ambulo_problem *problem, const ambulo_options *given,
+                                  ambulo_diagnostics *diagnostics, ambulo_options *own) {
+  *own = given ? ambulo_options_default() : ambulo_problem_options(problem);
+  if (ambulo__sized_take(own, sizeof *own, given) && own->size == sizeof *own)
+    return ambulo__option_ranges_check(own, diagnostics);
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                       "solver options did not come from ambulo_options_default()");
+}
+
+/* --------------------------------------------------------------------- memory
+ * With n unknowns, k diagonals below the main one, m rows, q border rows and J entries in the rows'
+ * gradients, what an engine takes (engine.c), in bytes:
+ *
+ *     8 n (k + 28)       each of three band matrices: metric, whitener, KKT factor
+ *     21 J               gradients: value, column, run; slopes by the motion, 3/5 as many
+ *     8 n (16 + 12)      vectors, and the mixing of five iterates
+ *     8 * 14 m           values, multipliers and marks of rows
+ *     8 n (q + 32)       columns of the border, and of rows that come and go (border.h)
+ *
+ * Meanwhile a coarser grid may be solved (half as much again at the most); afterwards an audit on a
+ * finer grid or an explanation (two more bands, all gradients) may follow. The largest counts.
+ */
+
+static const double gigabyte = 1073741824.0;
+static const double coarse_share = 0.5;
+static const double margin = 1.15; /* what is not counted: names, lists, rounding to tiles */
+
+/* columns that a channel depends on at one node, times the control points of the node */
+static double columns_of(const ambulo_problem *p, int channel) {
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  ambulo__row_part part[AMBULO__MOST_PARTS];
+  int output = channel - ambulo__channel_outputs(&p->channels), most = 1;
+  if (output < 0) return ambulo__basis_span(p->basis);
+  int parts = ambulo__plan_parts(p->plan, output, part);
+  for (int k = 0; k < parts; k++) {
+    int count = pattern.start[part[k].row + 1] - pattern.start[part[k].row];
+    if (count > most) most = count;
+  }
+  return (double)most * ambulo__basis_span(p->basis);
+}
+
+/* entries of the gradients of all rows: of each the widest channel that it looks at */
+static double entries_of(const ambulo_problem *p) {
+  double sum = 0.0;
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    const ambulo__row_term *term = p->table.terms + row->first_term;
+    double widest = row->user >= 0 ? ambulo__basis_span(p->basis) * p->coordinates : 1.0;
+    for (int t = 0; t < row->term_count; t++) {
+      double columns = term[t].node < 0 ? 1.0 : columns_of(p, term[t].channel);
+      if (columns > widest) widest = columns;
+    }
+    sum += row->node < 0 ? 2.0 * widest : widest;
+  }
+  return sum;
+}
+
+ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
+  double n = p->variables, k = ambulo__metric_diagonals(p) + 28.0, word = sizeof(double);
+  double entries = 21.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
+  double bands = 3.0 * word * n * k, vectors = word * (28.0 * n + 14.0 * p->rows);
+  double columns = word * n * (borders + 32.0);
+  ambulo_memory memory;
+  memory.problem = ambulo__row_bytes(p, p->rows) + 400.0 * p->nodes;
+  memory.evaluation = ambulo__workspace_bytes(p, 1);
+  double engine = memory.evaluation + bands + entries + vectors + columns;
+  double coarse = coarse_share * (engine + memory.problem);
+  int samples = ambulo__dense_samples(p, ambulo_options_default().dense_samples);
+  double dense = samples < 2 ? 0.0 : samples * (memory.problem + ambulo__workspace_bytes(p, 0));
+  double explanation = 2.0 / 3.0 * bands + entries + columns;
+  double after = dense > explanation ? dense : explanation;
+  memory.solve = margin * (memory.problem + engine + (coarse > after ? coarse : after));
+  return memory;
+}
+
+ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_options *o,
+                                         ambulo_diagnostics *diagnostics) {
+  double most = o->maximum_memory, bytes = ambulo_problem_memory(p).solve;
+  const char *what = "solver.maximum_memory";
+  if (isnan(most)) {
+    most = 1048576.0 * ambulo__free_megabytes();
+    what = "free";
+  }
+  if (most == 0.0 || bytes <= most) return AMBULO_OK;
+  return ambulo__error(
+      diagnostics, AMBULO_E_LIMIT, ambulo__nowhere,
+      "lower trajectory.intervals or time.intervals, or raise "
+      "solver.maximum_memory",
+      "the solve takes about %.3g GB (%d unknowns, %d diagonals, %d rows); expected "
+      "at most %.3g GB (%s)",
+      bytes / gigabyte, p->variables, ambulo__metric_diagonals(p) + 1, p->rows, most / gigabyte,
+      what);
+}
+
+/* ----------------------------------------------------------------- candidates */
+
+/* relative change of the objective that rows which hold better may cost beside the start */
+static const double start_advantage = 1e-6;
+
+static ambulo_status create_one(ambulo__candidate *c, ambulo__engine *e) {
+  c->x = ambulo__pool_doubles(&e->pool, (size_t)e->setup->n);
+  c->violation = c->objective = HUGE_VAL;
+  return c->x ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+ambulo_status ambulo__candidates_create(ambulo__candidates *c, ambulo__engine *e) {
+  c->n = e->setup->n;
+  c->tolerance = e->run->options->feasibility_tolerance;
+  ambulo_status status = create_one(&c->start, e);
+  return status ? status : create_one(&c->found, e);
+}
+
+double ambulo__violation_at(ambulo__engine *e, const double *x) {
+  if (ambulo__evaluate(e->workspace, x)) return HUGE_VAL;
+  double error = ambulo__engine_equality_error(e);
+  return ambulo__worse(error, ambulo__engine_excess(e, e->measured.excess));
+}
+
+/* x is one point of several, measured at the workspace */
+static void keep(ambulo__candidate *c, const ambulo__engine *e, const double *x, double violation) {
+  memcpy(c->x, x, (size_t)e->setup->n * sizeof *x);
+  c->violation = violation;
+  c->objective = e->workspace->objective;
+}
+
+void ambulo__candidates_offer_start(ambulo__candidates *c, ambulo__engine *e, const double *x) {
+  double violation = ambulo__violation_at(e, x);
+  if (violation < HUGE_VAL) keep(&c->start, e, x, violation);
+}
+
+void ambulo__candidates_offer(ambulo__candidates *c, ambulo__engine *e, const double *x) {
+  double violation = ambulo__violation_at(e, x), objective = e->workspace->objective;
+  int valid = violation <= c->tolerance, was = c->found.violation <= c->tolerance;
+  if (!(violation < HUGE_VAL)) return;
+  if (valid && was ? objective < c->found.objective : violation < c->found.violation)
+    keep(&c->found, e, x, violation);
+}
+
+int ambulo__candidates_solved(const ambulo__candidates *c) {
+  return c->found.violation <= c->tolerance;
+}
+
+int ambulo__candidates_take(const ambulo__candidates *c, double *x) {
+  const ambulo__candidate *start = &c->start, *found = &c->found;
+  double slack = start_advantage * fabs(start->objective);
+  int valid = start->violation <= c->tolerance;
+  if (start->violation <= found->violation) slack = 0.0;
+  int start_wins =
+      valid && (!ambulo__candidates_solved(c) || start->objective < found->objective - slack);
+  const ambulo__candidate *best = start_wins ? start : found;
+  if (best->violation < HUGE_VAL) memcpy(x, best->x, (size_t)c->n * sizeof *x);
+  return start_wins;
+}
 
 /* at a point that satisfies the rows and is not shown to be optimal */
 enum { SECOND_LOOKS = 3 };
@@ -35,7 +202,7 @@ static ambulo_status check_start(const ambulo__session *s) {
   return status;
 }
 
-/* -------------------------------------------------------------------- ending */
+/* ---------------------------------------------------------- from start to end */
 
 static void describe(const ambulo__session *s) {
   ambulo_result *r = s->result;
@@ -152,9 +319,7 @@ ambulo_status ambulo__session_finish(ambulo__session *s) {
 
 ambulo_status ambulo__session_begin(ambulo__session *s, const ambulo_options *options,
                                     const double *start) {
-  ambulo_status status = ambulo__options_check(options, s->diagnostics);
-  if (status) return status;
-  status = ambulo__solve_check_memory(s->problem, options, s->diagnostics);
+  ambulo_status status = ambulo__solve_check_memory(s->problem, options, s->diagnostics);
   if (status) return status;
   ambulo__run_begin(&s->run, options);
   s->start = start;
@@ -188,4 +353,19 @@ ambulo_status ambulo__session_end(ambulo__session *s, ambulo_status status,
   }
   *result = s->result;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo_audit_point(const ambulo_problem *problem, const ambulo_options *options,
+                                 const double *x, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo_result **result) {
+  if (!problem || !x || !result) return AMBULO_E_ARGUMENT;
+  ambulo_options own;
+  ambulo_status status = ambulo__options_own(problem, options, diagnostics, &own);
+  if (status) return status;
+  ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  s.errors = ambulo_diagnostics_error_count(diagnostics);
+  status = ambulo__session_begin(&s, &own, x);
+  if (!status) status = ambulo__session_finish(&s);
+  if (!status) (void)snprintf(s.result->ending, sizeof s.result->ending, "audit of a given point");
+  return ambulo__session_end(&s, status, result);
 }

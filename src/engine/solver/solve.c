@@ -1,12 +1,319 @@
-/* solver/solve.c - ambulo_solve: from one start (solver.c), or from the best of several (starts.c).
+/* solver/solve.c - ambulo_solve: which method, from which start, and which point is the best.
+ *
+ *   usually          NLopt's AUGLAG on the equalities' surface           (method/pipeline.c),
+ *                    from coarser grids when it starts at zero           (method/refine.c)
+ *   slsqp            NLopt's SLSQP on every row: asked for, or for rows
+ *                    that span the grid                                  (method/slsqp.c)
+ *
+ * From a start of the caller: a rough one is smoothed first (method/refine.c); where it leads to no
+ * solution the solver tries its own, zero, before it explains anything; and a result is never worse
+ * than a start that was valid: of all points the best is kept (session.c).
+ *
+ * From several starts: each is solved on a coarse grid, and the best end is the start on the
+ * problem's own. Start 0 is the start pose, at rest. Start k > 0 has, for each coordinate that is
+ * not a translation of the root, the curve over s = t/T
+ *
+ *     q(s) = q_0 + A (r_0 + r_1 cos 2 pi s + r_2 sin 2 pi s),   r uniform in [-1, 1],
+ *     A = .15 of the coordinate's range, at most .3 rad or m
+ *
+ * cut to the range: motions as slow as a stride, since what is faster is smoothed away before a
+ * solve begins. r follows from k and the coordinate alone (splitmix64, Steele, Lea & Flood 2014):
+ * every run and machine has the same starts.
+ *
+ * Two ends are of one valley when their objectives differ by at most .5 % and their control points
+ * by .05 rad or m, root mean square.
+ *
+ * Reading order: solve.c, session.h, session.c, result.h, audit.c, result.c; between the nodes:
+ * dense.h, dense_grid.c, dense_samples.c, dense_cure.c, dense_audit.c; why there is no solution:
+ * explain.h, explain.c, elastic.c, relax.c, suggest.c, suggest_feet.c, suggest_forces.c, advice.c;
+ * derivatives with the numbers of a problem: sensitivity.h, parameters.c, numbers_walk.c,
+ * numbers_body.c, numbers_task.c, differences.c, sensitivities.c; free numbers and finer grids:
+ * free_search.h, free_trial.c, free_search.c, free_refined.c.
  */
-#include "base/machine.h"
-#include "solver/result.h"
-#include "solver/options.h"
 #include "solver/session.h"
-#include "solver/starts.h"
+
+#include "base/machine.h"
+#include "contact/row_families.h"
+#include "method/pipeline.h"
+#include "method/refine.h"
+#include "method/slsqp.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double near_rows = 1e-3;                       /* relative to their sizes */
+static const double amplitude = 0.15, most_amplitude = 0.3; /* of a range; rad, m */
+static const double like_objective = 5e-3, like_points = 0.05;
+enum { LEAST_INTERVALS = 12, LEAST_SPLINE = 6 };
+
+/* ------------------------------------------------------------------- one start */
+
+/* the coarse grids led astray: once more from zero; x stays if that is no better */
+static ambulo_status solve_again(ambulo__session *s, double *x) {
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  size_t n = (size_t)s->problem->variables;
+  double *other = ambulo__alloc(&a, n, sizeof *other);
+  if (!other) return AMBULO_E_MEMORY;
+  ambulo__start_pose(s->problem, other);
+  ambulo_ending before = s->run.ending;
+  double violation = ambulo__violation_at(s->engine, x);
+  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__FAR, other);
+  if (!status && ambulo__violation_at(s->engine, other) < violation) {
+    memcpy(x, other, n * sizeof *x);
+  } else {
+    ambulo__run_end(&s->run, before);
+  }
+  ambulo__free(&a, other);
+  return status;
+}
+
+static ambulo__stage stage_of(ambulo__session *s, const double *x) {
+  int near = !s->from_zero && ambulo__violation_at(s->engine, x) <= near_rows;
+  return near ? AMBULO__NEAR : AMBULO__FAR;
+}
+
+static ambulo_status solve_by_pipeline(ambulo__session *s) {
+  const ambulo_options *o = s->run.options;
+  double *x = s->result->x;
+  int levels = 0;
+  ambulo_status status = AMBULO_OK;
+  s->method = "NLopt's AUGLAG with LBFGS";
+  s->run.stage = "coarse grids";
+  if (s->from_zero && o->continuation) status = ambulo__refine(s->engine, s->allocator, x, &levels);
+  s->run.stage = "solve";
+  if (!status) status = ambulo__pipeline(s->engine, stage_of(s, x), x);
+  if (!status && levels > 0 && !s->run.stopped &&
+      !(ambulo__violation_at(s->engine, x) <= o->feasibility_tolerance))
+    status = solve_again(s, x);
+  return status;
+}
+
+static ambulo_status solve_problem(ambulo__session *s) {
+  s->nlopt = NULL;
+  if (s->run.options->algorithm != AMBULO_SLSQP && s->engine->setup->rows->regular)
+    return solve_by_pipeline(s);
+  s->method = "NLopt's SLSQP, whitened";
+  return ambulo__solve_slsqp(s->engine, s->diagnostics, s->result->x, &s->nlopt);
+}
+
+/* an attempt from where result->x stands; what it finds joins the candidates */
+static ambulo_status attempt(ambulo__session *s) {
+  ambulo_status status = solve_problem(s);
+  if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
+  if (!status) ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
+  return status;
+}
+
+/* from zero; or from the caller's start, and from zero when that leads nowhere */
+static ambulo_status search(ambulo__session *s) {
+  double *x = s->result->x;
+  ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
+  if (status) return status;
+  if (s->start) {
+    int smoothed = 0;
+    ambulo__candidates_offer_start(&s->candidates, s->engine, x);
+    status = ambulo__smooth_start(s->engine, x, &smoothed);
+  }
+  if (!status) status = attempt(s);
+  if (status) return status;
+  if (s->start && !ambulo__candidates_solved(&s->candidates) && !ambulo__run_over(&s->run)) {
+    ambulo__start_pose(s->problem, x);
+    s->from_zero = 1;
+    s->note = "; from zero, since the given start led to no solution";
+    status = attempt(s);
+    if (status) return status;
+  }
+  if (ambulo__candidates_take(&s->candidates, x))
+    s->note = "; what it found was worse than the given start, which is returned";
+  return AMBULO_OK;
+}
+
+/* explains = 0: without second looks and explanation */
+static ambulo_status solve_once(const ambulo_problem *problem, const ambulo_options *options,
+                                const double *start, int explains,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_result **result) {
+  ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  s.errors = ambulo_diagnostics_error_count(diagnostics);
+  s.explains = explains;
+  ambulo_status status = ambulo__session_begin(&s, options, start);
+  if (!status && s.engine) status = search(&s);
+  if (!status) status = ambulo__session_finish(&s);
+  return ambulo__session_end(&s, status, result);
+}
+
+/* the valleys in which they end. */
+typedef struct ambulo__valleys {
+  ambulo_starts shown;
+  ambulo_basin basin[AMBULO_MOST_STARTS];
+} ambulo__valleys;
+
+typedef struct search_of_starts {
+  const ambulo_problem *problem; /* the coarse one */
+  ambulo_options options;
+  ambulo_allocator allocator;
+  double begin, *x[AMBULO_MOST_STARTS]; /* where the valleys' first starts ended; [n] */
+  ambulo__valleys *valleys;
+} search_of_starts;
+
+/* -------------------------------------------------------------- several starts */
+
+static double uniform(uint64_t *state) {
+  uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
+}
+
+static void fill_start(const ambulo_problem *p, int k, double *x) {
+  const double turn = 6.28318530717958647692;
+  for (int i = 0; i < p->coordinates; i++) {
+    const double *range = p->model->coordinates[i].range;
+    double pose = p->model->coordinates[i].default_value;
+    uint64_t state = ((uint64_t)k << 32) + (uint64_t)i;
+    double a = fmin(most_amplitude, amplitude * (range[1] - range[0])), r[3];
+    for (int j = 0; j < 3; j++) r[j] = uniform(&state);
+    int still = k == 0 || ambulo__is_root_translation(p->model, i) || !isfinite(a);
+    for (int c = 0; c < p->control_points; c++) {
+      double angle = turn * c / fmax(1.0, p->control_points - 1.0);
+      double q = pose + a * (r[0] + r[1] * cos(angle) + r[2] * sin(angle));
+      x[c * p->coordinates + i] = still ? pose : fmin(range[1], fmax(range[0], q));
+    }
+  }
+}
+
+/* ----------------------------------------------------------------- the valleys */
+
+static double distance(const search_of_starts *s, const double *a, const double *b) {
+  double sum = 0.0;
+  for (int j = 0; j < s->problem->variables; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sqrt(sum / s->problem->variables);
+}
+
+static int valley_of(const search_of_starts *s, const ambulo_result *result) {
+  int count = s->valleys->shown.basin_count;
+  for (int b = 0; b < count; b++) {
+    double objective = s->valleys->basin[b].objective;
+    double apart = fabs(result->objective - objective);
+    if (apart <= like_objective * fabs(objective) && distance(s, result->x, s->x[b]) <= like_points)
+      return b;
+  }
+  return count;
+}
+
+static ambulo_status book(search_of_starts *s, int k, const ambulo_result *result) {
+  ambulo_starts *shown = &s->valleys->shown;
+  shown->count++;
+  if (!ambulo_verdict_is_solution(result->verdict)) return AMBULO_OK;
+  int b = valley_of(s, result);
+  shown->solved++;
+  if (b == shown->basin_count) {
+    size_t n = (size_t)s->problem->variables;
+    s->x[b] = ambulo__alloc(&s->allocator, n, sizeof *s->x[b]);
+    if (!s->x[b]) return AMBULO_E_MEMORY;
+    memcpy(s->x[b], result->x, n * sizeof *s->x[b]);
+    s->valleys->basin[b] = (ambulo_basin){.objective = result->objective, .first = k};
+    shown->basin_count++;
+  }
+  s->valleys->basin[b].found++;
+  return AMBULO_OK;
+}
+
+/* the best first, in order of cost */
+static void sort(search_of_starts *s) {
+  ambulo_basin *basin = s->valleys->basin;
+  int count = s->valleys->shown.basin_count;
+  for (int i = 1; i < count; i++) {
+    for (int j = i; j > 0 && basin[j].objective < basin[j - 1].objective; j--) {
+      ambulo_basin moved = basin[j];
+      double *x = s->x[j];
+      basin[j] = basin[j - 1];
+      basin[j - 1] = moved;
+      s->x[j] = s->x[j - 1];
+      s->x[j - 1] = x;
+    }
+  }
+  for (int b = 0; b < count; b++) basin[b].distance = distance(s, s->x[b], s->x[0]);
+}
+
+/* ------------------------------------------------------------------- the search */
+
+/* seconds left of the limit, at least one poll; off: there is no limit */
+static double time_left(const search_of_starts *s) {
+  if (isnan(s->options.time_limit)) return AMBULO_OFF;
+  return fmax(1e-3, s->options.time_limit - (ambulo__seconds_now() - s->begin));
+}
+
+static ambulo_status run(search_of_starts *s) {
+  double *x = ambulo__alloc(&s->allocator, (size_t)s->problem->variables, sizeof *x);
+  ambulo_status status = x ? AMBULO_OK : AMBULO_E_MEMORY;
+  int stopped = 0;
+  for (int k = 0; k < s->options.starts && !status && !stopped; k++) {
+    ambulo_options options = s->options;
+    ambulo_result *result = NULL;
+    options.starts = options.dense_samples = 1;
+    options.time_limit = time_left(s);
+    fill_start(s->problem, k, x);
+    status = solve_once(s->problem, &options, k ? x : NULL, 0, &s->allocator, NULL, &result);
+    if (!status) status = book(s, k, result);
+    stopped = !status && (result->ending_code == AMBULO_ENDING_CALLER ||
+                          result->ending_code == AMBULO_ENDING_TIME);
+    ambulo_result_free(result);
+  }
+  ambulo__free(&s->allocator, x);
+  return status;
+}
+
+/* half the grid; where that is too coarse, the grid itself */
+static ambulo_status coarse(const ambulo_problem *p, const ambulo_allocator *a,
+                            ambulo_problem **out) {
+  int nodes = p->definition.intervals, spline = ambulo__basis_intervals(p->basis);
+  if (nodes / 2 >= LEAST_INTERVALS && spline / 2 >= LEAST_SPLINE) {
+    ambulo_status status = ambulo__problem_with_grid(p, nodes / 2, spline / 2, a, out);
+    if (!status || status == AMBULO_E_MEMORY) return status;
+  }
+  return ambulo__problem_with_grid(p, nodes, spline, a, out);
+}
+
+static ambulo_status carry(const search_of_starts *s, const ambulo_problem *to, double **start) {
+  *start = NULL;
+  if (s->valleys->shown.basin_count == 0 || s->valleys->basin[0].first == 0) return AMBULO_OK;
+  *start = ambulo__alloc(&s->allocator, (size_t)to->variables, sizeof **start);
+  if (!*start) return AMBULO_E_MEMORY;
+  return ambulo_problem_transfer(s->problem, s->x[0], to, *start);
+}
+
+/* *start, to be freed by the caller with the allocator, is where the best of them ends, carried
+ * over to the problem's own grid; NULL where that is where the first one ends, which is the
+ * solver's own start, or where none ends at a solution. *valleys, to be freed likewise, is NULL
+ * when memory runs out: E_MEMORY. */
+static ambulo_status solve_starts(const ambulo_problem *problem, const ambulo_options *options,
+                                  const ambulo_allocator *allocator, double **start,
+                                  ambulo__valleys **valleys) {
+  search_of_starts s = {.options = *options, .begin = ambulo__seconds_now()};
+  ambulo_problem *grid = NULL;
+  s.allocator = ambulo__allocator_or_default(allocator);
+  *start = NULL;
+  *valleys = s.valleys = ambulo__alloc(&s.allocator, 1, sizeof *s.valleys);
+  if (!s.valleys) return AMBULO_E_MEMORY;
+  ambulo_status status = coarse(problem, &s.allocator, &grid);
+  s.problem = grid;
+  if (!status) status = run(&s);
+  if (!status) {
+    sort(&s);
+    s.valleys->shown.intervals = grid->definition.intervals;
+    s.valleys->shown.basins = s.valleys->basin;
+    status = carry(&s, problem, start);
+  }
+  for (int b = 0; b < AMBULO_MOST_STARTS; b++) ambulo__free(&s.allocator, s.x[b]);
+  ambulo_problem_free(grid);
+  return status;
+}
+
+/* ----------------------------------------------------------------- entry points */
 
 /* from several starts; what is left of the time limit is the last solve's */
 static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambulo_options *options,
@@ -16,11 +323,10 @@ static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambu
   ambulo_options last = *options;
   ambulo__valleys *valleys = NULL;
   double *start = NULL, begin = ambulo__seconds_now();
-  ambulo_status status = ambulo__starts(problem, options, allocator, &start, &valleys);
+  ambulo_status status = solve_starts(problem, options, allocator, &start, &valleys);
   if (last.time_limit > 0.0)
     last.time_limit = fmax(1e-3, last.time_limit - (ambulo__seconds_now() - begin));
-  if (!status)
-    status = ambulo__solve_once(problem, &last, start, 1, allocator, diagnostics, result);
+  if (!status) status = solve_once(problem, &last, start, 1, allocator, diagnostics, result);
   if (!status) {
     (*result)->valleys = valleys;
     (*result)->timing.total = ambulo__seconds_now() - begin;
@@ -40,7 +346,7 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   if (status) return status;
   if (!start && own.starts > 1)
     return solve_from_starts(problem, &own, allocator, diagnostics, result);
-  return ambulo__solve_once(problem, &own, start, 1, allocator, diagnostics, result);
+  return solve_once(problem, &own, start, 1, allocator, diagnostics, result);
 }
 
 const ambulo_starts *ambulo_result_starts(const ambulo_result *result) {

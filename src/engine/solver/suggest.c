@@ -1,6 +1,6 @@
-/* solver/suggest.c - one suggestion (suggest.h): limits, ends, tubes, and the choice among rooms.
+/* solver/suggest.c - one suggestion (explain.h): limits, ends, tubes, and the choice among rows.
  */
-#include "solver/suggest.h"
+#include "solver/explain.h"
 
 #include "contact/row_families.h"
 

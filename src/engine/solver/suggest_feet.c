@@ -1,10 +1,11 @@
 /* solver/suggest_feet.c - what helps rows on feet: footholds, contacts, penetration, clearance. */
 #include "model/model.h"
-#include "solver/suggest.h"
+#include "solver/explain.h"
 
 #include "contact/contacts.h"
 
 #include <math.h>
+#include <string.h>
 #include <stdio.h>
 
 static const double widest_contact =

@@ -1,8 +1,9 @@
 /* solver/suggest_forces.c - what helps rows on the ground's force: where it acts, how it points,
  * how large it is. */
-#include "solver/suggest.h"
+#include "solver/explain.h"
 
 #include <math.h>
+#include <string.h>
 #include <stdio.h>
 
 static const double steepest = 10.0; /* most that ground_reaction.friction may be */

@@ -94,25 +94,6 @@ static void a_walk_under_load(void **state) {
   check(&c, NULL);
 }
 
-static void a_walk_with_other_terms(void **state) {
-  (void)state;
-  static const setting c = {
-      "tests/support/walk_rigid.yaml",
-      {"load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}",
-       "objective=[{term: clearance, height: 0.06, weight: 3}, {term: posture, name: rests, "
-       "scale: {knee_angle_r: 1, knee_angle_l: 1, hip_adduction_r: 2, hip_adduction_l: 2}, "
-       "angles: {knee_angle_r: 10, knee_angle_l: 10, hip_adduction_r: 3, hip_adduction_l: 3}}, "
-       "{term: mechanical_power, weight: 0.01}, {term: upright, weight: 10, "
-       "points: [pelvis, head_top]}, {term: upright, name: right, points: [hip_r, heel_r]}, {term: "
-       "upright, name: left, points: [hip_l, heel_l]}, {term: ground_force, weight: 0.3}]",
-       "time.duration=null", "gait.speed=1.26"},
-      {"objective[clearance].height", "objective[rests].angles.hip_adduction_r",
-       "objective[rests].angles.knee_angle_r", "gait.speed", "gait.step_length",
-       "constraints.clearance.turn", "constraints.contact_tolerance",
-       "constraints.orientation_tolerance", "constraints.clearance.ceiling", "load.mass"}};
-  check(&c, NULL);
-}
-
 #define ON_EVENTS "time.grid=events", "trajectory.knots=events"
 
 /* contacts share the load: what they are told, their rows, a term on their forces */
@@ -219,28 +200,6 @@ static void a_cadence_at_a_speed(void **state) {
   check(&unlike, "gait.step_time");
 }
 
-static void a_walk_in_tubes(void **state) {
-  (void)state;
-  static const setting c = {
-      "models/walk_tracking.yaml",
-      {"constraints.tubes=[{reference: walk_tracking_angles.csv, coordinates: {hip_flexion_r: "
-       "20}}, "
-       "{reference: walk_tracking_angles.csv, coordinates: {knee_angle_r: 9}}]",
-       "ends=null"},
-      {"constraints.tubes[0].coordinates.hip_flexion_r",
-       "constraints.tubes[1].coordinates.knee_angle_r"}};
-  check(&c, "time.duration");
-}
-
-static void a_step_in_a_tube_on_both_sides(void **state) {
-  (void)state;
-  static const setting c = {"models/walk_tracking.yaml",
-                            {"constraints.tubes=[{reference: walk_tracking_angles.csv, "
-                             "coordinates: {knee_angle_r: 20, knee_angle_l: 20}}]"},
-                            {"constraints.tubes[0].coordinates.knee_angle_r"}};
-  check(&c, NULL);
-}
-
 /* left and right move together, the other way round */
 static void two_arms(void **state) {
   (void)state;
@@ -262,15 +221,12 @@ int main(void) {
       cmocka_unit_test(ends_that_rise),
       cmocka_unit_test(breakpoints_stay_in_seconds),
       cmocka_unit_test(a_walk_under_load),
-      cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_run),
       cmocka_unit_test(a_walk_at_a_speed),
       cmocka_unit_test(a_walk_on_shared_contacts),
       cmocka_unit_test(a_walk_on_shared_contacts_on_events),
       cmocka_unit_test(a_walk_on_shared_arcs),
       cmocka_unit_test(a_cadence_at_a_speed),
-      cmocka_unit_test(a_walk_in_tubes),
-      cmocka_unit_test(a_step_in_a_tube_on_both_sides),
       cmocka_unit_test(two_arms),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -86,8 +86,8 @@ static void a_force_or_place_that_is_not_finite_is_named(void **state) {
   const ambulo_model *model = f.problem->model;
   int up = fabs(model->up[1]) > 0.5 ? 1 : 2, ahead = fabs(model->forward[0]) > 0.5 ? 0 : 1;
   int left = strcmp(model->feet[0].name, "left") == 0 ? 0 : 1; /* it stands at 0.26 s */
-  const ambulo__dense_entry *force = &f.worst.entry[ambulo__dense_rule_of_force()];
-  const ambulo__dense_entry *slip = &f.worst.entry[ambulo__dense_rule_of_slip()];
+  const ambulo__dense_entry *force = &f.worst.entry[AMBULO__DENSE_RULE_FORCE];
+  const ambulo__dense_entry *slip = &f.worst.entry[AMBULO__DENSE_RULE_SLIP];
   for (int i = 0; i < 4; i++) {
     int node = nodes[i / 2];
     double least = node == 123 ? 0.54 * 123 / 250 : 0.54 * 110 / 250;

@@ -1,5 +1,5 @@
 /* Every verdict can be reached, and each has a name and a text. */
-#include "solver/verdict.h"
+#include "solver/result.h"
 #include "support/test.h"
 
 static ambulo_verdict verdict(double violation, double kkt, ambulo_ending ending) {

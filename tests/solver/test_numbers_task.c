@@ -1,5 +1,5 @@
-/* Margins, places of obstacles, places and tolerances of reaches: by hand against central
- * differences. */
+/* Terms, margins, tubes, places of obstacles, places and tolerances of reaches: by hand against
+ * central differences. */
 #include "support/sensitivity_check.h"
 
 #define STANDING                                                                                   \
@@ -43,8 +43,51 @@ static void legs_of_a_walk(void **state) {
   check(&c, NULL);
 }
 
+static void a_walk_with_other_terms(void **state) {
+  (void)state;
+  static const setting c = {
+      "tests/support/walk_rigid.yaml",
+      {"load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}",
+       "objective=[{term: clearance, height: 0.06, weight: 3}, {term: posture, name: rests, "
+       "scale: {knee_angle_r: 1, knee_angle_l: 1, hip_adduction_r: 2, hip_adduction_l: 2}, "
+       "angles: {knee_angle_r: 10, knee_angle_l: 10, hip_adduction_r: 3, hip_adduction_l: 3}}, "
+       "{term: mechanical_power, weight: 0.01}, {term: upright, weight: 10, "
+       "points: [pelvis, head_top]}, {term: upright, name: right, points: [hip_r, heel_r]}, {term: "
+       "upright, name: left, points: [hip_l, heel_l]}, {term: ground_force, weight: 0.3}]",
+       "time.duration=null", "gait.speed=1.26"},
+      {"objective[clearance].height", "objective[rests].angles.hip_adduction_r",
+       "objective[rests].angles.knee_angle_r", "gait.speed", "gait.step_length",
+       "constraints.clearance.turn", "constraints.contact_tolerance",
+       "constraints.orientation_tolerance", "constraints.clearance.ceiling", "load.mass"}};
+  check(&c, NULL);
+}
+
+static void a_walk_in_tubes(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_tracking.yaml",
+      {"constraints.tubes=[{reference: walk_tracking_angles.csv, coordinates: {hip_flexion_r: "
+       "20}}, "
+       "{reference: walk_tracking_angles.csv, coordinates: {knee_angle_r: 9}}]",
+       "ends=null"},
+      {"constraints.tubes[0].coordinates.hip_flexion_r",
+       "constraints.tubes[1].coordinates.knee_angle_r"}};
+  check(&c, "time.duration");
+}
+
+static void a_step_in_a_tube_on_both_sides(void **state) {
+  (void)state;
+  static const setting c = {"models/walk_tracking.yaml",
+                            {"constraints.tubes=[{reference: walk_tracking_angles.csv, "
+                             "coordinates: {knee_angle_r: 20, knee_angle_l: 20}}]"},
+                            {"constraints.tubes[0].coordinates.knee_angle_r"}};
+  check(&c, NULL);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(obstacles_and_places),
-                                     cmocka_unit_test(legs_of_a_walk)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(obstacles_and_places), cmocka_unit_test(legs_of_a_walk),
+      cmocka_unit_test(a_walk_with_other_terms), cmocka_unit_test(a_walk_in_tubes),
+      cmocka_unit_test(a_step_in_a_tube_on_both_sides)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
