@@ -42,14 +42,14 @@ typedef struct ambulo_coordinate {
   double speed[2];        /* [min, max], rad/s or m/s */
   double torque[2];       /* [min, max] generalized force, N m or N */
   int actuated;           /* 0: a global (root) coordinate that no muscle drives */
-  int mirror;             /* coordinate that takes its place in the mirror image; itself if
-                             unpaired (in a definition also -1) */
+  int mirror;             /* its counterpart in the mirror image; itself if unpaired (in a
+                             definition also -1) */
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
-  double default_value;   /* where it stands in the start pose, from which a solve without a start
-                             of the caller's begins: rad or m; 0 */
+  double default_value;   /* its value in the start pose, where a solve begins unless the caller
+                             gives a start: rad or m; 0 */
 } ambulo_coordinate;
 
-/* What a coordinate has limits of, and an interval that they leave. */
+/* Which limit of a coordinate, and the interval that it leaves. */
 typedef enum ambulo_limited {
   AMBULO_LIMITED_NOT_SET = 0, /* refused */
   AMBULO_LIMITED_POSITION,    /* `range` */
@@ -58,7 +58,7 @@ typedef enum ambulo_limited {
 } ambulo_limited;
 typedef struct ambulo_limits {
   double low, high;    /* rad, m, per s, N m or N; +-INFINITY without limit */
-  int low_of, high_of; /* coordinates whose limits the two ends are */
+  int low_of, high_of; /* coordinates whose limits set the two ends */
 } ambulo_limits;
 
 /* One link as given (after scaling to the subject). */
@@ -88,34 +88,33 @@ typedef struct ambulo_foot {
   int toe[2];       /* corner points at the toe; [1] = -1 if there is only one */
   int heel_center;  /* point placed on the foothold */
   int toe_center;   /* point that fixes the heading, and the place in toe contact */
-  int mirror;       /* foot that takes its place in the mirror image (in a definition
-                       -1: itself) */
+  int mirror;       /* its counterpart in the mirror image (in a definition -1: itself) */
   int has_tip;      /* 1: a tip reaches further ahead than the pivot of push-off */
-  int tip;          /* its point: it only has to clear the ground late in swing */
+  int tip;          /* its point, which must clear the ground only late in swing */
   /* Heel and forefoot as arcs, on which the foot rolls without slip. Their radius is the height of
-   * the centre above the heel centre at q = 0; one at that height is a point that stays. */
+   * the arc's centre above the heel centre at q = 0; radius 0 is a fixed point. */
   int has_arcs; /* 1: both */
   int arc[2];   /* points: centre of the heel's, of the forefoot's */
 } ambulo_foot;
 
 /* A small surface of a link that may press on something: a hand, the seat, an elbow, the pad of a
- * robot. What it rests on is said by the contacts of a problem (problem.h). */
+ * robot. The contacts of a problem say what it rests on (problem.h). */
 typedef struct ambulo_patch {
-  const char *name; /* "hand_r", "seat"; no foot has the same */
+  const char *name; /* "hand_r", "seat"; also different from the feet's */
   int point;        /* its middle, which a contact holds in place */
   double size[2];   /* half its length along the surface's forward, half its width along left, m:
                        how far the centre of pressure may be from the middle; > 0 */
-  int mirror; /* patch that takes its place in the mirror image (in a definition -1: itself) */
+  int mirror;       /* its counterpart in the mirror image (in a definition -1: itself) */
 } ambulo_patch;
 
-/* The room that a link takes up: all that is within `radius` of a line of its. Problems keep
- * capsules out of one another and out of obstacles (ambulo_collision in problem.h). */
+/* The space that a link occupies: all points within `radius` of a line segment. Problems keep
+ * capsules clear of each other and of obstacles (collision.h). */
 typedef struct ambulo_capsule {
   const char *name; /* "shank_r" */
   int link;
-  double from[3], to[3]; /* ends of the line, link frame, m; the same: a sphere */
+  double from[3], to[3]; /* ends of the line, link frame, m; equal: a sphere */
   double radius;         /* m, > 0 */
-  int mirror; /* capsule that takes its place in the mirror image (in a definition -1: itself) */
+  int mirror;            /* its counterpart in the mirror image (in a definition -1: itself) */
 } ambulo_capsule;
 
 /* ------------------------------------------------------------ build in code */
@@ -160,8 +159,8 @@ static inline ambulo_model_definition ambulo_model_definition_default(void) {
   return usual;
 }
 #endif
-/* Parts of it with neutral values (unlimited, actuated, own mirror); numbers of links and points
- * that have to be given are -1, which is refused. */
+/* Neutral values: unlimited, actuated, own mirror. Indices of links and points that must be set are
+ * -1, which is refused. */
 AMBULO_DEFAULT(ambulo_link);
 AMBULO_DEFAULT(ambulo_coordinate);
 AMBULO_DEFAULT(ambulo_point);
@@ -169,8 +168,8 @@ AMBULO_DEFAULT(ambulo_foot);
 AMBULO_DEFAULT(ambulo_patch);
 AMBULO_DEFAULT(ambulo_capsule);
 
-/* Checks the definition (acyclic, masses positive, inertias physical, limits
- * ordered, names unique) and builds the model. `diagnostics` may be NULL.
+/* Checks the definition (acyclic, masses positive, inertias physical, limits ordered, names unique)
+ * and builds the model. `allocator` and `diagnostics` may be NULL. Free with ambulo_model_free.
  * Errors: E_ARGUMENT, E_MODEL, E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_model_create(const ambulo_model_definition *definition, const ambulo_allocator *allocator,
@@ -181,19 +180,20 @@ AMBULO_API void ambulo_model_free(ambulo_model *model);
 
 /* --------------------------------------------------------- other conditions */
 
-/* What a body climbs and carries: `ground` and `load` of a problem file. */
+/* A slope and a load: `ground` and `load` of a problem file. */
 typedef struct ambulo_conditions {
   size_t size;             /* set by ambulo_conditions_default() */
-  double slope;            /* rad, -0.6 to 0.6: the ground rises so much along forward. The world's
-                              axes stay with the ground, gravity is turned instead; 0: as it was */
-  int load_link;           /* link that a mass without extent is fixed on; -1: none */
+  double slope;            /* rad, -0.6 to 0.6: rise of the ground along forward. The world's axes
+                              stay with the ground; gravity turns instead. 0: unchanged */
+  int load_link;           /* link that carries a point mass; -1: none */
   double load_mass;        /* kg, 1e-6 to 1000 */
   double load_position[3]; /* link frame, m */
 } ambulo_conditions;
-AMBULO_DEFAULT(ambulo_conditions); /* as it was, no load */
+AMBULO_DEFAULT(ambulo_conditions); /* slope unchanged, no load */
 
-/* A copy of `model` under other conditions; free it too. Loads add up, a slope replaces the one
- * before. `diagnostics` may be NULL. Errors: E_ARGUMENT, E_MEMORY. */
+/* A copy of `model` under other conditions; free it with ambulo_model_free. A load adds to earlier
+ * ones; a slope replaces the earlier one. `allocator` and `diagnostics` may be NULL. Errors:
+ * E_ARGUMENT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model *model,
                                                              const ambulo_conditions *conditions,
                                                              const ambulo_allocator *allocator,
@@ -202,14 +202,16 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
 
 /* --------------------------------------------------------- left against right */
 
-/* Is the body its own mirror image across the plane through the world's origin that contains up
- * and forward, coordinate for coordinate as `mirror` and `mirror_sign` have it? Compared are, at
- * q = 0: which joint hangs on which, axes of joints, mass, centre of mass and inertia of what each
- * joint carries, and the points of the feet; within 1e-6 of their size (lengths: of the body's;
- * directions: rad). Points that no foot uses, patches, capsules, limits and `actuated` are not.
- * Link frames may be of either handedness. Each difference is a message with the names of both
- * partners and both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT,
- * E_MEMORY. */
+/* Checks that the body is its own mirror image, coordinate by coordinate as `mirror` and
+ * `mirror_sign` say. The mirror plane contains the world's origin, up and forward.
+ *
+ * Compared at q = 0: the tree of joints, their axes, the mass, centre of mass and inertia that each
+ * joint carries, and the points of the feet. The tolerance is 1e-6 of their size (lengths: of the
+ * body's; directions: rad). Not compared: points that no foot uses, patches, capsules, limits,
+ * `actuated`, and the handedness of link frames.
+ *
+ * Each difference is a message with both names and both numbers. `allocator` and `diagnostics` may
+ * be NULL. Errors: E_MODEL (not symmetric), E_ARGUMENT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_check_mirror(
     const ambulo_model *model, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics);
 

@@ -1,7 +1,7 @@
-/* ambulo/objective.h - what is minimized, and rows of the caller's own: parts of problem.h.
+/* ambulo/objective.h - objective terms, and rows of the caller's own: parts of problem.h.
  *
- * Terms are integrated over the motion; functions of the caller see one node at a time, and give
- * their gradient with their value.
+ * Terms are integrated over the motion. A caller's function sees one node at a time and returns its
+ * gradient with its value.
  */
 #ifndef AMBULO_OBJECTIVE_H
 #define AMBULO_OBJECTIVE_H
@@ -20,25 +20,26 @@ typedef enum ambulo_relation {
 
 /* ------------------------------------------------- what callbacks get to see */
 
-/* State of one node. Arrays: q, qd, qdd, tau [d]; wrench [6] (M about the world
- * origin, then F); points [p][3]. */
+/* State of one node, SI units. Arrays: q, qd, qdd, tau [d]; wrench [6] (M about the world origin,
+ * then F); points [p][3]. Valid during the call only. */
 typedef struct ambulo_node_state {
   double time;
   int node;
   const double *q, *qd, *qdd, *tau, *wrench, *points;
 } ambulo_node_state;
 
-/* Gradient with respect to the members of ambulo_node_state; zero on entry. */
+/* Gradient with respect to the arrays of ambulo_node_state, of the same shapes; zero on entry. */
 typedef struct ambulo_node_gradient {
   double *q, *qd, *qdd, *tau, *wrench, *points;
 } ambulo_node_gradient;
 
-/* Value at one node, gradient added where `gradient` is not NULL. Must be a pure
- * function of the state's members; called from the thread that evaluates, also with members that do
- * not belong to one motion: the solver learns the curvature of a term from gradients at states
- * nearby. Of AMBULO_USER_SQUARE it knows the curvature without, and solves faster. A value or a
- * gradient that is not finite gives a trial point up (a barrier may return NAN beyond its wall); at
- * the start, at every iterate and at the end it is a numeric failure. */
+/* Returns the value at one node, and adds its gradient if `gradient` is not NULL. It must be a pure
+ * function of the state. It is called from the evaluating thread, also at states that do not belong
+ * to a motion: the solver estimates the curvature of a term from gradients at nearby states. For
+ * AMBULO_USER_SQUARE no such estimate is needed, and solves are faster.
+ *
+ * A value or gradient that is not finite rejects the trial point, so a barrier may return NAN
+ * beyond its wall. At the start, at an iterate or at the end it is a numeric failure. */
 typedef double (*ambulo_node_function)(void *user, const ambulo_node_state *state,
                                        ambulo_node_gradient *gradient);
 
@@ -51,13 +52,13 @@ typedef enum ambulo_term_kind {
   AMBULO_ACCELERATION,     /* sum_i (scale_i qdd_i)^2 */
   AMBULO_TRACKING,         /* sum_i (scale_i (q_i - reference_i))^2 */
   AMBULO_USER_TERM,        /* function(user, state, gradient) */
-  AMBULO_TORQUE_POWER,     /* sum_i (u_i^2 + s^2)^(p/2) - s^p,  u_i the active torque as a share
+  AMBULO_TORQUE_POWER,     /* sum_i (u_i^2 + s^2)^(p/2) - s^p,  u_i the active torque as a fraction
                               of strength: scale_i (tau_i - offset_i - passive_i(q)) / strength_i(q) */
   AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
   AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg;
                               with `tendon` tau_i (qd_i + dtau_i/dt / tendon_i) for tau_i qd_i */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
-  AMBULO_UPRIGHT,      /* squared horizontal parts of a line, point[0] to point[1], by its length */
+  AMBULO_UPRIGHT, /* squared horizontal parts of the line point[0] to point[1] over its length */
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
   AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
   AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
@@ -72,7 +73,7 @@ typedef struct ambulo_term {
   double weight;                 /* >= 0 */
   const double *scale;           /* [d]; NULL: 1 everywhere */
   const double *offset;          /* [d]; NULL: 0 everywhere (torques: N m, N; posture: rad, m) */
-  double smoothing;              /* s > 0 where the kind has one, unit of u */
+  double smoothing;              /* s > 0 of kinds with an s, in the unit of u */
   double power;                  /* p in [2, 8] of AMBULO_TORQUE_POWER */
   const double *passive;         /* [d][4]: b1, k1, b2, k2 of b1 exp(k1 q) + b2 exp(k2 q), N m and
                                     1/rad; NULL: none (AMBULO_TORQUE_POWER) */
@@ -80,25 +81,25 @@ typedef struct ambulo_term {
                                     (1/rad), c3 (rad) of peak cos(c2 (q - c3)); peak 0: strength 1;
                                     NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
   int strength_is_limits;        /* 1: the strength of each coordinate is its torque limit in the
-                                    model, of positive and of negative torque, whatever `strength`
-                                    is; scale then is a price (AMBULO_TORQUE_POWER) */
-  const double *price;           /* [d][2]: with strength_is_limits what scale is multiplied by for
-                                    negative, for positive torque, > 0; NULL: 1 */
-  int point[2];                  /* model points of AMBULO_UPRIGHT; length: of q = 0 */
-  double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
+                                    model, for positive and negative torque; `strength` is ignored
+                                    and scale is a price (AMBULO_TORQUE_POWER) */
+  const double *price;           /* [d][2]: with strength_is_limits, factors > 0 on scale for
+                                    negative and positive torque; NULL: 1 */
+  int point[2];                  /* model points of AMBULO_UPRIGHT; its length is that at q = 0 */
+  double height;                 /* of AMBULO_CLEARANCE, m, > 0; 0.02 */
   const double *device_scale;    /* [device_count] of AMBULO_DEVICE_EFFORT, >= 0; NULL: 1 */
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;
-  const double *tendon; /* [d]: stiffness in series with the muscles, N m/rad (N/m), >= 0;
-                           0: none. Power then is the muscles', from means and differences
-                           of neighbouring nodes; NULL: that of the joint, at the nodes
+  const double *tendon; /* [d]: stiffness in series with the muscles, N m/rad (N/m), >= 0; 0: none.
+                           Power is then that of the muscles, from means and differences of
+                           neighbouring nodes. NULL: power of the joint, at the nodes
                            (AMBULO_MECHANICAL_POWER) */
 } ambulo_term;
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */
 typedef struct ambulo_user_row {
-  const char *name; /* its family in reports, apart from one of the engine under the same name */
+  const char *name; /* its family in reports; kept apart from an engine's family of that name */
   const char *unit;
   ambulo_relation relation;
   double from, to; /* s */
@@ -106,7 +107,7 @@ typedef struct ambulo_user_row {
   void *user;
 } ambulo_user_row;
 
-/* Of weight 1, each number as docs/problem-format.md has it; a row c >= 0 at every node. */
+/* A term of weight 1 with the defaults of docs/problem-format.md; a row c >= 0 at every node. */
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_term ambulo_term_default(ambulo_term_kind kind) {
   ambulo_term usual;

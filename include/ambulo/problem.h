@@ -42,14 +42,15 @@ typedef enum ambulo_discretization {
   AMBULO_HERMITE                     /* Eqs. 20-22 */
 } ambulo_discretization;
 
-/* Where nodes or knots are. An event is a time at which a contact begins or ends; for nodes also
- * the times in a swing from which the foot's tip has to clear the ground (ambulo_clearance) and
- * between which it passes the edges of steps. The phases between neighbouring events share the
- * intervals in proportion to their durations (largest remainder; at least two for nodes, one for
- * knots) and space them equally; where contacts share the load (AMBULO_REACTION_SHARED) nodes stand
- * closer beside the events, down to a fifth of the mean distance.
- * A node on an event belongs to both phases: rows of what ends there and of what begins there hold,
- * each in the sense of its limit. */
+/* Where nodes or knots are. An event is a time at which a contact begins or ends. Nodes have
+ * further events in a swing: when the foot's tip must begin to clear the ground (ambulo_clearance),
+ * and when it passes the edges of steps.
+ *
+ * Phases between neighbouring events share the intervals in proportion to their durations (largest
+ * remainder; at least two for nodes, one for knots), equally spaced. With AMBULO_REACTION_SHARED
+ * nodes are denser beside events, down to a fifth of the mean distance. A node on an event belongs
+ * to both phases: rows of the phase that ends and of the one that begins hold, as one-sided limits.
+ */
 typedef enum ambulo_grid {
   AMBULO_GRID_NOT_SET = 0, /* refused */
   AMBULO_GRID_UNIFORM,     /* t_k = k T / N; a node on an event belongs to the phase that begins */
@@ -63,46 +64,47 @@ typedef enum ambulo_contact_mode {
   AMBULO_CONTACT_FLAT, /* all corners down; heel centre on the foothold, toe centre straight ahead
                         */
   AMBULO_CONTACT_TOE,  /* toe corners down; toe centre where the flat foot has it */
-  AMBULO_CONTACT_PATCH /* of no foot: the middle of a patch on its place, however it is turned */
+  AMBULO_CONTACT_PATCH /* no foot: the middle of a patch on its place, at any orientation */
 } ambulo_contact_mode;
 
 /* One foot in one mode on one foothold, or one patch on one place. Nodes with from <= t < to are in
- * contact; a span that ends at the duration includes it, and so does a node at `to` of a grid on
- * events. Patches that are not in contact have no rows: nothing keeps them off the surroundings. */
+ * contact; a span that ends at the duration includes it, and on a grid on events a node at `to` is
+ * in contact too. A patch without contact has no rows: nothing keeps it off the surroundings. */
 typedef struct ambulo_contact {
   int foot; /* index of the model's foot; -1 of a patch */
   ambulo_contact_mode mode;
   double from, to; /* s */
-  /* Where it is, along forward, left and up (zeros beyond the first two: level ground, straight
-   * ahead). */
-  double place[3]; /* foothold of the heel centre, place of a patch: m; the third above the ground's
-                      height */
-  double normal[3]; /* of the surface, away from it, of any length; under a foot within 60 degrees
-                       of up; all zero: up */
-  double heading; /* of the foot, or the surface's forward, about up, turned to the left, rad. Of a
-                     surface that faces it (25 degrees) up takes the place of forward */
+  /* Components along forward, left and up. Zeros in all but the first two: level ground, straight
+   * ahead. */
+  double place[3]; /* of the heel centre, or of the patch, m; the third above the ground's height */
+  double normal[3]; /* of the surface, away from it, any length; under a foot within 60 degrees of
+                       up; all zero: up */
+  double heading; /* of the foot, or of the surface's forward, about up, turned to the left, rad. On
+                     a surface that faces that direction (within 25 degrees), up replaces forward */
   int patch;      /* index of the model's patch, of a contact in mode AMBULO_CONTACT_PATCH */
 } ambulo_contact;
 
-/* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps)
- * strikes at s * step_time; its foot alternates from `first_foot`; its foothold is
- * (start + s * step_length, +-step_width / 2), left positive. An odd number of equal steps goes
- * with mirrored ends, an even number with periodic ones. Fractions of the stride (two steps)
- * relative to the foot's own strike; heel_strike may be negative: the heel is down before the
- * nominal strike. */
+/* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps) strikes at
+ * s * step_time, with feet alternating from `first_foot`. Its foothold is
+ * (start + s * step_length, +-step_width / 2), left positive. Use mirrored ends for an odd number
+ * of equal steps and periodic ends for an even number.
+ *
+ * Phases are fractions of the stride (two steps) after the foot's own strike. A negative
+ * heel_strike puts the heel down before the nominal strike. */
 typedef struct ambulo_gait {
   size_t size, contact_size; /* set by ambulo_gait_default() */
   int steps;
   int first_foot;                                   /* foot that strikes at t = 0 */
   double step_length, step_time, step_width, start; /* m, s, m, m */
   double heel_strike, foot_flat, heel_off, toe_off; /* e.g. 0, 0.08, 0.38, 0.62 */
-  /* Steps that differ: the steps to odd strikes take step_length and step_time, those to even
-   * ones these. AMBULO_OFF: the same as the first. A stride lasts their sum. */
+  /* Unequal steps: those to odd strikes have step_length and step_time, those to even strikes have
+   * these. AMBULO_OFF: equal steps. A stride lasts the sum of both. */
   double other_step_length, other_step_time; /* m, s */
   int forefoot; /* 1: down on the toes, not on the heel, from heel_strike to foot_flat */
 } ambulo_gait;
 
-/* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people. */
+/* A contact: level, straight, flat on the ground; foot or patch must be set. A gait: one step with
+ * the phases of people. */
 AMBULO_PROBLEM_DEFAULT(ambulo_contact);
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_gait ambulo_gait_default(void) {
@@ -114,9 +116,10 @@ static inline ambulo_gait ambulo_gait_default(void) {
 }
 #endif
 
-/* Writes at most `capacity` contacts that meet [0, steps * step_time] and sets
- * *count to their number. Errors: E_ARGUMENT (phases out of order, no such foot,
- * fewer than two feet), E_LIMIT (*count > capacity; *count is set). */
+/* Writes the contacts that meet [0, steps * step_time] to contacts [capacity] and sets *count to
+ * their number. Errors: E_ARGUMENT (phases out of order, no such foot, fewer than two feet),
+ * E_LIMIT
+ * (*count > capacity; only *count is set). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_gait_expand(const ambulo_model *model,
                                                              const ambulo_gait *gait,
                                                              ambulo_contact *contacts, int capacity,
@@ -138,9 +141,9 @@ typedef enum ambulo_ends {
   AMBULO_ENDS_FREE = 0,
   AMBULO_ENDS_PERIODIC, /* state(T) = state(0), moved forward by `travel` */
   AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel`: one step
-                           stands for both. Body, terms, tubes and footholds have to be the same on
-                           both sides, limits hold in both halves (docs/problem-format.md, "ends");
-                           references and user functions are about the one step */
+                           represents both. Body, terms, tubes and footholds must be symmetric;
+                           limits hold in both halves (docs/problem-format.md, "ends"). References
+                           and user functions refer to the one step */
 } ambulo_ends;
 
 /* A prescribed end value: the order-th derivative of a coordinate at t = 0 or T. */
@@ -158,8 +161,8 @@ typedef struct ambulo_tube {
   const double *half_width; /* [d], rad or m, >= 0; INFINITY: the coordinate is free */
 } ambulo_tube;
 
-AMBULO_PROBLEM_DEFAULT(ambulo_end_value); /* a value of 0 at the start, of nothing yet */
-AMBULO_PROBLEM_DEFAULT(ambulo_tube);      /* none */
+AMBULO_PROBLEM_DEFAULT(ambulo_end_value); /* 0 at the start; the coordinate must be set */
+AMBULO_PROBLEM_DEFAULT(ambulo_tube);      /* empty: all must be set */
 
 /* ---------------------------------------------------------------- definition */
 
@@ -179,10 +182,10 @@ typedef struct ambulo_problem_definition {
   ambulo_discretization discretization;
   int degree;                /* of the B-spline, 3..7 */
   int spline_intervals;      /* K, intervals of the trajectory; 0: as many as time intervals */
-  ambulo_grid knots;         /* of breakpoints that are not given */
-  const double *node_times;  /* [N + 1] rising from 0 to T, with AMBULO_GRID_EVENTS only: these
-                                instead, whose nodes within 1e-9 s of an event belong to both
-                                phases; NULL: distributed over the phases */
+  ambulo_grid knots;         /* where breakpoints are if not given */
+  const double *node_times;  /* [N + 1] rising from 0 to T, with AMBULO_GRID_EVENTS only; nodes
+                                within 1e-9 s of an event belong to both phases. NULL: distributed
+                                over the phases */
   const double *breakpoints; /* [K + 1] from 0 to T; NULL: as `knots` says */
 
   const ambulo_contact *contacts;
@@ -193,15 +196,14 @@ typedef struct ambulo_problem_definition {
   ambulo_support support; /* ZMP rows */
   double support_margin;  /* m, >= 0: the polygon is shrunk by it */
   double minimum_force;   /* n . F >= minimum_force * m g; AMBULO_OFF: no row */
-  /* > 0: contacts hold within a tolerance. Instead of the equalities of ground_penetration and
-   * foot_strike, pairs of inequalities on a loaded foot: its contact point within contact_tolerance
-   * (m) of its place in all three directions; sines of its yaw and roll within
-   * orientation_tolerance (twice that on the toes), of its pitch when flat as well; on the heel
-   * toes up to 30 degrees, on the toes heel up. */
+  /* > 0: contacts hold within a tolerance. Pairs of inequalities on a loaded foot then replace the
+   * equalities of ground_penetration and foot_strike. Its contact point is within contact_tolerance
+   * (m) of its place in all three directions. The sines of its yaw and roll, and of its pitch when
+   * flat, are within orientation_tolerance (yaw and roll on the toes: twice that). On the heel the
+   * toes are raised by up to 30 degrees; on the toes the heel is raised. */
   double contact_tolerance, orientation_tolerance;
-  double strike_pitch[2]; /* with a tolerance: pitch at the first node of a contact on the heel, or
-                             of one on the toes where both are at most 0, rad, rising;
-                             AMBULO_OFF: any */
+  double strike_pitch[2]; /* with a tolerance: [min, max] pitch, rad, at the first node of a contact
+                             on the heel, or on the toes if both are at most 0. AMBULO_OFF: any */
   ambulo_clearance clearance;
   ambulo_ground_reaction ground_reaction;
 
@@ -209,14 +211,14 @@ typedef struct ambulo_problem_definition {
   int speed_limits, torque_limits;
 
   ambulo_ends ends;
-  int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2; below 2 forces jump
-                     from one period to the next */
+  int ends_order; /* highest derivative matched at the ends: 0, 1 (default) or 2; below 2 forces
+                     jump between periods */
   double travel;  /* m along forward */
-  double rise;    /* m along up: of stairs, over the motion; 0 with free ends */
+  double rise;    /* m along up over the whole motion, as on stairs; 0 with free ends */
   const ambulo_end_value *end_values;
   int end_value_count;
   int tube_count;
-  const ambulo_tube *tubes; /* [tube_count]: rows on the distance from reference motions */
+  const ambulo_tube *tubes; /* [tube_count]: distance from reference motions */
 
   ambulo_collision collision;
   const ambulo_obstacle *obstacles;
@@ -228,7 +230,7 @@ typedef struct ambulo_problem_definition {
   const ambulo_hold *holds; /* what hands hold or push (ambulo/hold.h) */
   int hold_count;
 
-  const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
+  const ambulo_term *terms; /* none: any feasible motion will do (Fig. 5a) */
   int term_count;
   const ambulo_user_row *user_rows;
   int user_row_count;
@@ -256,11 +258,11 @@ static inline ambulo_problem_definition ambulo_problem_definition_default(void) 
   return usual;
 }
 #endif
-/* Checks the definition and builds the problem. Contradictions that need no solve
- * are refused by name, time and unit: footholds out of reach, no support at some
- * time, an empty support polygon, overlapping contacts, more equalities than
- * unknowns, ends that do not match the footholds, mirrored ends of what is not symmetric. Errors:
- * E_ARGUMENT, E_PROBLEM, E_LIMIT, E_MEMORY. */
+/* Checks the definition and builds the problem. `allocator` and `diagnostics` may be NULL; the
+ * model must outlive the problem. Contradictions that need no solve are refused with name, time and
+ * unit: footholds out of reach, times without support, empty support polygons, overlapping
+ * contacts, more equalities than unknowns, ends that do not match the footholds, mirrored ends
+ * without symmetry. Errors: E_ARGUMENT, E_PROBLEM, E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
     const ambulo_problem_definition *definition, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
@@ -268,6 +270,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
 AMBULO_API void ambulo_problem_free(ambulo_problem *problem); /* accepts NULL */
 
 /* ------------------------------------------------------------------- queries */
+/* Pointers belong to the problem. Indices out of range give NULL. */
 
 AMBULO_API const char *ambulo_problem_name(const ambulo_problem *problem);
 AMBULO_API const ambulo_model *ambulo_problem_model(const ambulo_problem *problem);
@@ -291,14 +294,14 @@ AMBULO_API int ambulo_problem_hold_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_hold *ambulo_problem_hold(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
-/* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with
- * mirrored ends also within what those of its partner leave. E_ARGUMENT: no such coordinate. */
+/* Limits on `what` of coordinate `index` over [0, T]: the model's, and with mirrored ends those of
+ * its mirror coordinate too. E_ARGUMENT: no such coordinate. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_limits(const ambulo_problem *problem,
                                                                 int index, ambulo_limited what,
                                                                 ambulo_limits *limits);
-/* The pairs of capsules that rows keep apart: as many as are returned, `pair` the index-th of them
- * (NULL: only counted). Of AMBULO_COLLISION_AUTOMATIC also those that overlap in the rest pose and
- * are left out, and how many are too far apart to meet. */
+/* Pairs of capsules that rows keep apart. Each function returns their number and, unless `pair` is
+ * NULL, copies the index-th. For AMBULO_COLLISION_AUTOMATIC, _left_out lists the pairs that overlap
+ * in the rest pose, and _too_far counts those too far apart to meet. */
 AMBULO_API int ambulo_problem_pairs(const ambulo_problem *problem, int index,
                                     ambulo_capsule_pair *pair);
 AMBULO_API int ambulo_problem_pairs_left_out(const ambulo_problem *problem, int index,
@@ -306,7 +309,7 @@ AMBULO_API int ambulo_problem_pairs_left_out(const ambulo_problem *problem, int 
 AMBULO_API int ambulo_problem_pairs_too_far(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_obstacle_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_obstacle *ambulo_problem_obstacle(const ambulo_problem *problem, int index);
-/* FNV-1a 64 of everything that was resolved (model, schedule, terms, grid). */
+/* FNV-1a 64 of the resolved problem: model, schedule, terms, grid. */
 AMBULO_API unsigned long long ambulo_problem_hash(const ambulo_problem *problem);
 
 /* One row. Strings belong to the problem. */
@@ -317,10 +320,9 @@ typedef struct ambulo_row {
   const char *unit;    /* "m", "rad", "N m", ... */
   ambulo_relation relation;
   int node;    /* -1: not tied to one node */
-  double time; /* s; with mirrored ends beyond the duration where the row holds a limit in the
-                  mirrored half of the stride */
+  double time; /* s; beyond the duration for limits in the mirrored half of a stride */
 } ambulo_row;
-/* E_ARGUMENT when out of range. */
+/* Copies row `index`. E_ARGUMENT: out of range. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row(const ambulo_problem *problem,
                                                              int index, ambulo_row *row);
 
