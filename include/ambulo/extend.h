@@ -1,4 +1,4 @@
-/* ambulo/extend.h - terms and rows added to a problem that is there, from a file or from C. */
+/* ambulo/extend.h - terms and rows added to an existing problem, from a file or from C. */
 #ifndef AMBULO_EXTEND_H
 #define AMBULO_EXTEND_H
 
@@ -8,14 +8,13 @@
 extern "C" {
 #endif
 
-/* What is added to a problem that is there, whatever it was made from: a term or a row of the
- * caller's own on a walk of a file. Borrowed during the call only, except the callbacks' user
- * pointers, which must outlive the problem. */
+/* What to add: for example, a term of the caller's own on a walk from a file. Borrowed during the
+ * call only, except the callbacks' user pointers, which must outlive the problem. */
 typedef struct ambulo_extension {
   size_t size, term_size, user_row_size; /* set by ambulo_extension_default() */
-  const ambulo_term *terms;              /* of any kind; they follow the problem's own */
+  const ambulo_term *terms; /* [term_count] of any kind; they follow the problem's own */
   int term_count;
-  const ambulo_user_row *user_rows; /* likewise */
+  const ambulo_user_row *user_rows; /* [user_row_count]; they follow the problem's own */
   int user_row_count;
 } ambulo_extension;
 #ifndef AMBULO_DECLARATIONS_ONLY
@@ -29,10 +28,10 @@ static inline ambulo_extension ambulo_extension_default(void) { /* nothing */
 }
 #endif
 
-/* `problem` with the extension: the same unknowns, rows and terms before those that are added,
- * options, and free parameters (parameters.h), whose values are tried with the extension as well.
- * It uses the model of `problem`, before which it must be freed. Errors: as ambulo_problem_create;
- * E_ARGUMENT for an extension that did not come from ambulo_extension_default(). */
+/* A copy of `problem` with the extension. It keeps the unknowns, options and free parameters
+ * (parameters.h), and its own rows and terms come first. It uses the model of `problem`: free it
+ * before `problem`. `allocator` and `diagnostics` may be NULL. Errors: as ambulo_problem_create;
+ * E_ARGUMENT also for an extension that did not come from ambulo_extension_default(). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_extend(const ambulo_problem *problem,
                                                                 const ambulo_extension *extension,
                                                                 const ambulo_allocator *allocator,

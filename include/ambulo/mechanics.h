@@ -3,14 +3,14 @@
  * For n time nodes and d coordinates, motions are row-major [n][d] arrays: q (rad
  * or m), qd (per second), qdd (per second squared). Outputs:
  *   tau      [n][d]       generalized force at each coordinate, N m or N
- *   wrench   [n][6]       root wrench: moment M about the world origin (N m), then
- *                         force F (N), world axes: what the surroundings must apply
- *                         to the body, F = sum m (a - g)      (seed Eqs. 15'-16')
+ *   wrench   [n][6]       root wrench that the surroundings must apply to the body: moment M
+ *                         about the world origin (N m), then force F (N), world axes,
+ *                         F = sum m (a - g)                   (seed Eqs. 15'-16')
  *   points   [n][p][3]    positions of the model's points, world frame, m
- * No external force acts but gravity. The recursion is in world coordinates, eight time nodes
+ * Gravity is the only external force. The recursion is in world coordinates, eight time nodes
  * at a time, with hand-derived derivatives.
  *
- * A workspace holds scratch; use one per thread. The model is only read.
+ * An ambulo_mechanics holds scratch memory; use one per thread. The model is only read.
  */
 #ifndef AMBULO_MECHANICS_H
 #define AMBULO_MECHANICS_H
@@ -23,38 +23,40 @@ extern "C" {
 
 typedef struct ambulo_mechanics ambulo_mechanics; /* workspace */
 
+/* `model` must outlive it; `allocator` may be NULL. Free with ambulo_mechanics_free. E_ARGUMENT,
+ * E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_create(const ambulo_model *model,
                                                                   const ambulo_allocator *allocator,
                                                                   ambulo_mechanics **mechanics);
 AMBULO_API void ambulo_mechanics_free(ambulo_mechanics *mechanics); /* accepts NULL */
 
-/* Where results go, each of its shape above, or NULL: not asked for. */
+/* Where results go, each of its shape above; NULL: not wanted. */
 typedef struct ambulo_outputs {
   size_t size; /* set by ambulo_outputs_default() */
   double *tau, *wrench, *points;
 } ambulo_outputs;
-AMBULO_DEFAULT(ambulo_outputs); /* nothing is asked for */
+AMBULO_DEFAULT(ambulo_outputs); /* NULL */
 
-/* Inverse dynamics of `nodes` states.
+/* Inverse dynamics of `nodes` >= 1 states; q, qd, qdd [nodes][d].
  * Errors: E_ARGUMENT, E_NUMERIC (an input or a result is not finite). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_inverse_dynamics(
     ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
     const ambulo_outputs *outputs);
 
-/* Weights on what inverse dynamics gives; NULL: 0 everywhere. */
+/* Weights on the outputs of inverse dynamics; NULL: 0 everywhere. */
 typedef struct ambulo_output_weights {
   size_t size;          /* set by ambulo_output_weights_default() */
   const double *tau;    /* [n][d] */
   const double *wrench; /* [n][6] */
   const double *points; /* [n][p][3] */
 } ambulo_output_weights;
-/* Where a gradient with respect to a motion goes: each [n][d], none NULL. */
+/* Where a gradient with respect to a motion goes: each [n][d], none may be NULL. */
 typedef struct ambulo_motion_gradient {
   size_t size; /* set by ambulo_motion_gradient_default() */
   double *q, *qd, *qdd;
 } ambulo_motion_gradient;
 AMBULO_DEFAULT(ambulo_output_weights);  /* NULL */
-AMBULO_DEFAULT(ambulo_motion_gradient); /* NULL, to be given */
+AMBULO_DEFAULT(ambulo_motion_gradient); /* NULL: must be set */
 
 /* Vector-Jacobian product: the gradient of the weighted sum of all outputs, by one reverse sweep.
  * Errors: E_ARGUMENT, E_NUMERIC. */
@@ -62,9 +64,8 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_gradient(
     ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
     const ambulo_output_weights *weights, const ambulo_motion_gradient *gradient);
 
-/* Full Jacobians of tau [n][d][d] with respect to q, qd, qdd (rows: tau; the last
- * is the mass matrix), of the wrench [n][6][d] likewise, and of the points
- * [n][3 p][d] with respect to q. Each output may be NULL. */
+/* Full Jacobians of tau and wrench with respect to q, qd and qdd, and of the points with respect to
+ * q. Rows are outputs, columns coordinates; tau_qdd is the mass matrix. Each may be NULL. */
 typedef struct ambulo_jacobians {
   size_t size;                               /* set by ambulo_jacobians_default() */
   double *tau_q, *tau_qd, *tau_qdd;          /* [n][d][d] */
@@ -72,6 +73,7 @@ typedef struct ambulo_jacobians {
   double *points_q;                          /* [n][3 p][d] */
 } ambulo_jacobians;
 AMBULO_DEFAULT(ambulo_jacobians); /* NULL */
+/* Fills `jacobians` at `nodes` states. Errors: E_ARGUMENT, E_NUMERIC. */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_mechanics_jacobians(ambulo_mechanics *mechanics, int nodes, const double *q,
                            const double *qd, const double *qdd, const ambulo_jacobians *jacobians);
