@@ -120,33 +120,6 @@ static void test_open_ends(void **state) {
   assert_close(time[1], 1.2, 1e-15);
 }
 
-/* slopes of the window by the time and by its numbers, against differences */
-static void test_slopes(void **state) {
-  (void)state;
-  const ambulo_hold windows[] = {test_hold_times_held(0.5, 1.5), test_hold_times_held(-1, 1.5),
-                                 test_hold_times_held(0.5, INFINITY),
-                                 test_hold_times_held(0.5, 0.93)};
-  const double step = 1e-6;
-  for (int i = 0; i < 4; i++) {
-    for (double t = 0.013; t < 2.0; t += 0.03) {
-      ambulo__hold_slopes w = ambulo__hold_slopes_at(&windows[i], 2, t);
-      double got[] = {w.by_time, w.by_from, w.by_to, w.by_ramp}, value[2];
-      assert_close(w.value, ambulo__hold_window(&windows[i], 2, t), 0);
-      for (int number = 0; number < 4; number++) {
-        for (int side = 0; side < 2; side++) {
-          double by = side ? step : -step;
-          ambulo_hold h = windows[i];
-          if (number == 1) h.from += by;
-          if (number == 2) h.to += by;
-          if (number == 3) h.ramp += by;
-          value[side] = ambulo__hold_window(&h, 2, number == 0 ? t + by : t);
-        }
-        assert_close(got[number], (value[1] - value[0]) / (2 * step), 1e-7);
-      }
-    }
-  }
-}
-
 /* ends of ramps are nodes of a grid on events, and no knots */
 static void test_events_of_the_grid(void **state) {
   (void)state;
@@ -171,7 +144,7 @@ static void test_events_of_the_grid(void **state) {
 }
 
 static int test_hold_times_tests(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_window), cmocka_unit_test(test_slopes),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_window),
                                      cmocka_unit_test(test_open_ends),
                                      cmocka_unit_test(test_events_of_the_grid)};
   return cmocka_run_group_tests_name("gait/hold_times", tests, NULL, NULL);

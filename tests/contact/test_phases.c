@@ -23,21 +23,6 @@ static void events_are_those_of_the_gait(void **state) {
   ambulo_problem_free(p);
 }
 
-static void events_are_found_by_their_times(void **state) {
-  (void)state;
-  double times[] = {0.1, 0.2, 0.7};
-  const ambulo__events events = {3, times}, none = {0, NULL};
-  for (int i = 0; i < 3; i++) {
-    assert_int_equal(ambulo__event_at(&events, times[i]), i);
-    assert_int_equal(ambulo__event_at(&events, times[i] + 5e-10), i);
-    assert_int_equal(ambulo__event_at(&events, times[i] - 5e-10), i);
-    assert_int_equal(ambulo__event_at(&events, times[i] + 5e-9), -1);
-  }
-  assert_int_equal(ambulo__event_at(&events, 0.0), -1);
-  assert_int_equal(ambulo__event_at(&events, 1.0), -1);
-  assert_int_equal(ambulo__event_at(&none, 0.1), -1);
-}
-
 /* on stairs also where a foot in the air comes to the first edge and has passed the last one: up at
  * 38 and 56 % of its swing from 0.156 to 0.65 s, down at 44 and 62 % */
 static void edges_of_steps_are_events(void **state) {
@@ -308,7 +293,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(events_are_those_of_the_gait),
       cmocka_unit_test(knots_know_contacts_only),
-      cmocka_unit_test(events_are_found_by_their_times),
       cmocka_unit_test(edges_of_steps_are_events),
       cmocka_unit_test(tips_that_need_not_clear_make_no_event),
       cmocka_unit_test(a_problem_without_contacts_has_none),

@@ -113,7 +113,7 @@ static void inertia_factors_multiply_out(void **state) {
     if (number % 5 == 0) links[0].inertia[0] = links[0].inertia[1] = links[0].inertia[2];
     if (number % 5 == 0) links[0].inertia[3] = links[0].inertia[4] = links[0].inertia[5] = 0;
     ambulo__plan *plan = plan_of(links, 1);
-    const ambulo__body *body = &plan->body[0];
+    const ambulo__rigid_body *body = &plan->body[0];
     const double *in = links[0].inertia, *l = body->lower;
     const double want[3][3] = {{in[0], in[3], in[4]}, {in[3], in[1], in[5]}, {in[4], in[5], in[2]}};
     const double u[3] = {1, l[0], l[1]}, w[3] = {0, 1, l[2]};

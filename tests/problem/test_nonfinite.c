@@ -1,5 +1,5 @@
 /* What is not finite is found, and named: quantity, place, time. */
-#include "problem/nonfinite.h"
+#include "problem/nlp.h"
 #include "support/poison.h"
 #include "support/problem_fixture.h"
 

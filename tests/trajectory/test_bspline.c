@@ -135,60 +135,6 @@ static void motion_stays_in_the_hull_of_its_control_points(void **state) {
   ambulo__basis_free(basis);
 }
 
-/* D^order at a time of the curve when something moves time and breakpoints by `by` times rates */
-static double moved_curve(int degree, const double *x, double t, double rate,
-                          const double *knot_rate, double by, int order) {
-  double knots[6];
-  for (int i = 0; i < 6; i++) knots[i] = uneven_knots[i] + by * (knot_rate ? knot_rate[i] : 0.0);
-  ambulo__basis *basis = make_basis(AMBULO__BSPLINE, degree, 5, 2.0, knots);
-  double value = curve(basis, x, t + by * rate, order);
-  ambulo__basis_free(basis);
-  return value;
-}
-
-static void expect_tangent(int degree, double t, double rate, const double *knot_rate) {
-  double x[16], step = 1e-4;
-  ambulo__basis_point by;
-  ambulo__basis *basis = make_basis(AMBULO__BSPLINE, degree, 5, 2.0, uneven_knots);
-  fill_pseudo_random(x, 16, (unsigned)degree);
-  ambulo__basis_tangent(basis, t, rate, knot_rate, &by);
-  for (int order = 0; order <= 2; order++) {
-    double sum = 0.0, f[4];
-    for (int k = 0; k < by.span; k++) sum += by.weight[order][k] * x[by.first + k];
-    for (int k = 0; k < 4; k++)
-      f[k] = moved_curve(degree, x, t, rate, knot_rate, step * (k - (k < 2 ? 2 : 1)), order);
-    double difference = (8.0 * (f[2] - f[1]) - (f[3] - f[0])) / (12.0 * step);
-    if (!(fabs(sum - difference) <= 1e-7 * (1.0 + fabs(difference))))
-      fail_msg("degree %d at %g, order %d: %.12g, differences give %.12g", degree, t, order, sum,
-               difference);
-  }
-  ambulo__basis_free(basis);
-}
-
-/* between breakpoints whatever moves; on one, where it goes along; at both ends */
-static void tangents_by_time_and_breakpoints(void **state) {
-  (void)state;
-  static const double rates[6] = {0.0, 0.3, -0.2, 0.1, 0.4, 0.0};
-  for (int degree = 3; degree <= 7; degree++) {
-    for (int k = 0; k < 40; k++) {
-      double t = 0.013 + 0.05 * k;
-      expect_tangent(degree, t, 1.0, NULL);
-      expect_tangent(degree, t, 0.0, rates);
-      expect_tangent(degree, t, -0.7, rates);
-    }
-    for (int b = 0; b <= 5; b++) expect_tangent(degree, uneven_knots[b], rates[b], rates);
-  }
-}
-
-static void other_curves_have_no_tangent(void **state) {
-  (void)state;
-  ambulo__basis_point by;
-  ambulo__basis *basis = make_basis(AMBULO__HERMITE, 3, 5, 2.0, NULL);
-  ambulo__basis_tangent(basis, 0.3, 1.0, NULL, &by);
-  assert_int_equal(by.span, 0);
-  ambulo__basis_free(basis);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(weights_sum_to_one_and_derivatives_to_zero),
@@ -197,8 +143,6 @@ int main(void) {
       cmocka_unit_test(uniform_cubic_has_the_textbook_weights_at_breakpoints),
       cmocka_unit_test(curves_are_continuous_across_breakpoints),
       cmocka_unit_test(motion_stays_in_the_hull_of_its_control_points),
-      cmocka_unit_test(tangents_by_time_and_breakpoints),
-      cmocka_unit_test(other_curves_have_no_tangent),
   };
   return cmocka_run_group_tests_name("trajectory/bspline", tests, NULL, NULL);
 }

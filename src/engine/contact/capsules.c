@@ -289,14 +289,3 @@ double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride
   double weight[2] = {no_weight * solid->weight[0], no_weight * solid->weight[1]};
   return apart_of(solid, y, stride, weight).value - solid->radius;
 }
-
-void ambulo__solid_by_place(const ambulo__solid *solid, const double *y, int stride,
-                            double by_place[2][3]) {
-  apart d = apart_of(solid, y, stride, solid->weight);
-  memset(by_place, 0, 6 * sizeof by_place[0][0]);
-  for (int i = 0; i < 3; i++) {
-    if (solid->kind == AMBULO__SOLID_BOX) by_place[0][i] = -(d.slope[0][i] + d.slope[1][i]);
-    for (int end = 0; end < 2 && solid->kind == AMBULO__SOLID_CAPSULE; end++)
-      by_place[end][i] = d.slope[2 + end][i];
-  }
-}

@@ -228,20 +228,6 @@ int ambulo__swing_contacts(const ambulo_problem_definition *d, int foot, double 
   return has_from || has_to;
 }
 
-int ambulo__swing_source(const ambulo_problem_definition *d, const ambulo_contact *image,
-                         int *period) {
-  int last = ambulo__image_periods(d);
-  for (int i = 0; i < d->contact_count; i++) {
-    for (*period = -last; *period <= last; (*period)++) {
-      ambulo__span span = ambulo__image_span(d, i, *period);
-      if (ambulo__image_effector(d, i, *period) == image->foot && span.from == image->from &&
-          span.to == image->to)
-        return i;
-    }
-  }
-  return -1;
-}
-
 ambulo__contact_frame ambulo__surface_below(const ambulo_problem_definition *d, int foot,
                                             double time) {
   ambulo_contact from = {.foot = foot}, to = from;

@@ -116,10 +116,6 @@ int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID
 /* What air there is between the two, margin left out, without weights, m; negative: so far is one
  * inside the other. */
 double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride);
-/* Slopes of the value by the obstacle's place, world: of a box by_place[0] by its middle, of a
- * capsule by both its ends; the rest, and all of what moves, 0. */
-void ambulo__solid_by_place(const ambulo__solid *solid, const double *y, int stride,
-                            double by_place[2][3]);
 
 /* heel and forefoot as arcs that roll on a surface: rows that are not linear.
  *

@@ -339,11 +339,3 @@ ambulo__device_state ambulo__device_at(const ambulo__devices *all, int device, c
   double effort = scratch[kept_effort], rate = scratch[kept_rate];
   return (ambulo__device_state){scratch[kept_along], rate, effort, e->sense * effort * rate};
 }
-
-double ambulo__device_pull(const ambulo__devices *all, int device, const double *q,
-                           const double *tau_weight, double *scratch) {
-  const element *e = &all->elements[device];
-  parts p = parts_of(e, scratch);
-  measure(e, q, q, 0, scratch); /* rates are not asked for */
-  return e->sense * virtual_rate(e, p.slope, tau_weight);
-}

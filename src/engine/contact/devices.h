@@ -72,11 +72,6 @@ typedef struct ambulo__device_state {
 ambulo__device_state ambulo__device_at(const ambulo__devices *devices, int device, const double *q,
                                        const double *qd, const double *told, double *scratch);
 
-/* z of ambulo__devices_reverse at one node: what a torque of 1 in the sense of the effort moves sum
- * y tau by is -g z. Returns g z; weights on tau [d][lanes] from the node's lane on. */
-double ambulo__device_pull(const ambulo__devices *devices, int device, const double *q,
-                           const double *tau_weight, double *scratch);
-
 /* 1 where an effort is a torque, in N m; else a force, in N. */
 int ambulo__device_turns(const ambulo_model *model, const ambulo_device *device);
 
@@ -208,11 +203,6 @@ int ambulo__hold_rises(const ambulo_hold *hold);
 int ambulo__hold_falls(const ambulo_hold *hold, double duration);
 /* w at a time of a motion that lasts `duration`. */
 double ambulo__hold_window(const ambulo_hold *hold, double duration, double time);
-/* w and its slopes, per s. */
-typedef struct ambulo__hold_slopes {
-  double value, by_time, by_from, by_to, by_ramp;
-} ambulo__hold_slopes;
-ambulo__hold_slopes ambulo__hold_slopes_at(const ambulo_hold *hold, double duration, double time);
 /* Times inside (0, duration) at which the window begins or ends to change, time[4]; how many. */
 int ambulo__hold_events(const ambulo_hold *hold, double duration, double time[4]);
 

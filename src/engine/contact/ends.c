@@ -52,18 +52,6 @@ static double order_scale(const ambulo__gait_context *context, int order) {
   return largest > 0.0 ? 1.0 / largest : 1.0;
 }
 
-double ambulo__end_shift(const ambulo_problem_definition *definition, int i) {
-  const ambulo_model *model = definition->model;
-  if (definition->ends == AMBULO_ENDS_FREE || !ambulo__is_root_translation(model, i)) return 0.0;
-  double axis[3], along = 0.0, upward = 0.0;
-  ambulo__neutral_axis(model, i, axis);
-  for (int k = 0; k < 3; k++) {
-    along += axis[k] * model->forward[k];
-    upward += axis[k] * model->up[k];
-  }
-  return definition->travel * along + definition->rise * upward;
-}
-
 static void matching_row(const ambulo__gait_context *context, int i, int order, int mirrored,
                          ambulo__row_table *table) {
   const ambulo_coordinate *from = &context->model->coordinates[i];
@@ -112,7 +100,7 @@ void ambulo__end_rows(const ambulo__gait_context *context, ambulo__row_table *ta
  * two steps the same foot strikes again, after one the other one does.
  */
 
-static const double tolerance = 1e-6; /* m, rad */
+static const double tolerance = 1e-6; /* m, rad and their rates */
 
 /* do places enter the rows at all? */
 static int uses_places(const ambulo_problem_definition *d) {
@@ -216,9 +204,7 @@ ambulo_status ambulo__schedule_check_ends(const ambulo_problem_definition *d,
  *             on the ground where the schedule has it down, not below it elsewhere
  */
 
-static const double end_check_tolerance = 1e-6; /* rad, m and their rates */
 static const char *const end_words[] = {"initial", "final"};
-static const char *const end_check_order_words[] = {"value", "rate", "acceleration"};
 static const char *const order_keys[] = {"", "_speed", "_acceleration"};
 
 #define REFUSE(list, hint, ...)                                                                    \
@@ -249,16 +235,14 @@ static ambulo_status check_range(const ambulo_problem_definition *d, const ambul
   ambulo__bounds b = ambulo__bounds_of(
       d, end->coordinate, end->order == 0 ? AMBULO_LIMITED_POSITION : AMBULO_LIMITED_SPEED);
   double low = b.low.value, high = b.high.value;
-  if (!asked ||
-      (end->value >= low - end_check_tolerance && end->value <= high + end_check_tolerance))
-    return AMBULO_OK;
+  if (!asked || (end->value >= low - tolerance && end->value <= high + tolerance)) return AMBULO_OK;
   char whose[AMBULO__WHOSE_SIZE];
   ambulo__bounds_whose(d->model, &b, whose);
   return REFUSE(list,
                 end->order ? "change the end value, or set speed_limits: false"
                            : "change the end value, the range in the model, or joint_limits",
                 "the %s %s of %s is %.6g %s; expected %.6g to %.6g %s, its limits%s",
-                end_words[end->final != 0], end_check_order_words[end->order], c->name, end->value,
+                end_words[end->final != 0], order_words[end->order], c->name, end->value,
                 unit_of(c, end->order), low, high, unit_of(c, end->order), whose);
 }
 
@@ -267,11 +251,11 @@ static ambulo_status check_twice(const ambulo_problem_definition *d, int e,
   const ambulo_end_value *end = &d->end_values[e];
   double first = end->value;
   (void)value_at(d, end->coordinate, end->order, end->final, &first);
-  if (fabs(first - end->value) <= end_check_tolerance) return AMBULO_OK;
+  if (fabs(first - end->value) <= tolerance) return AMBULO_OK;
   const ambulo_coordinate *c = &d->model->coordinates[end->coordinate];
   return REFUSE(list, NULL,
                 "the %s %s of %s is prescribed twice: %.6g %s and %.6g %s; expected one",
-                end_words[end->final != 0], end_check_order_words[end->order], c->name, first,
+                end_words[end->final != 0], order_words[end->order], c->name, first,
                 unit_of(c, end->order), end->value, unit_of(c, end->order));
 }
 
@@ -284,7 +268,7 @@ static ambulo_status check_matching(const ambulo_problem_definition *d, int i, i
   double first = 0.0, last = 0.0, sign = mirrored ? from->mirror_sign : 1.0;
   if (!value_at(d, i, order, 0, &first) || !value_at(d, to, order, 1, &last)) return AMBULO_OK;
   double shift = order == 0 ? ambulo__end_shift(d, to) : 0.0, expected = sign * first + shift;
-  if (fabs(last - expected) <= end_check_tolerance) return AMBULO_OK;
+  if (fabs(last - expected) <= tolerance) return AMBULO_OK;
   const char *unit = unit_of(from, order), *final = d->model->coordinates[to].name;
   char hint[200];
   (void)snprintf(hint, sizeof hint,
@@ -294,8 +278,8 @@ static ambulo_status check_matching(const ambulo_problem_definition *d, int i, i
       list, hint,
       "the final %s of %s is %.6g %s, but %s ends with a travel of %.6g m make it %.6g %s "
       "from the initial %s of %s, %.6g %s",
-      end_check_order_words[order], final, last, unit, mirrored ? "mirrored" : "periodic",
-      d->travel, expected, unit, end_check_order_words[order], from->name, first, unit);
+      order_words[order], final, last, unit, mirrored ? "mirrored" : "periodic", d->travel,
+      expected, unit, order_words[order], from->name, first, unit);
 }
 
 /* how far coordinate i has to move from 0 to T; 0 when that is open */
@@ -315,16 +299,15 @@ static ambulo_status check_change(const ambulo_problem_definition *d, int i,
   ambulo__bounds range = ambulo__bounds_of(d, i, AMBULO_LIMITED_POSITION);
   ambulo__bounds speeds = ambulo__bounds_of(d, i, AMBULO_LIMITED_SPEED);
   double low = range.low.value, high = range.high.value;
-  if (d->joint_limits != AMBULO_LIMIT_OFF &&
-      fabs(change) > fmax(0.0, high - low) + end_check_tolerance) {
+  if (d->joint_limits != AMBULO_LIMIT_OFF && fabs(change) > fmax(0.0, high - low) + tolerance) {
     ambulo__bounds_whose(d->model, &range, whose);
     status = REFUSE(list, "widen the range in the model, or shorten the travel",
                     "%s has to move by %.6g %s from beginning to end; its range, %.6g to %.6g "
                     "%s%s, is only %.6g %s wide",
                     c->name, change, unit, low, high, unit, whose, fmax(0.0, high - low), unit);
   }
-  if (d->speed_limits && (speed > speeds.high.value + end_check_tolerance ||
-                          speed < speeds.low.value - end_check_tolerance)) {
+  if (d->speed_limits &&
+      (speed > speeds.high.value + tolerance || speed < speeds.low.value - tolerance)) {
     ambulo__bounds_whose(d->model, &speeds, whose);
     status =
         REFUSE(list, "allow a higher speed, more time, or less travel",
@@ -355,13 +338,13 @@ static ambulo_status check_corner(const ambulo_problem_definition *d, int foot, 
   ambulo__contact_frame surface = ambulo__surface_below(d, foot, final ? d->duration : 0.0);
   double height = ambulo__contact_frame_along(&surface, surface.up, place + 3 * point);
   double time = final ? d->duration : 0.0;
-  if (down && fabs(height) > end_check_tolerance)
+  if (down && fabs(height) > tolerance)
     return REFUSE(list, "change the end values, or the contact's time",
                   "the %s state puts %s (foot '%s') %.4g m %s the ground at t = %.6g s, where the "
                   "schedule has it in contact",
                   end_words[final], model->points[point].name, model->feet[foot].name, fabs(height),
                   height > 0.0 ? "above" : "below", time);
-  if (!down && height < -end_check_tolerance)
+  if (!down && height < -tolerance)
     return REFUSE(list, "change the end values",
                   "the %s state puts %s (foot '%s') %.4g m below the ground at t = %.6g s",
                   end_words[final], model->points[point].name, model->feet[foot].name, -height,
@@ -376,12 +359,10 @@ static ambulo_status check_feet(const ambulo_problem_definition *d, const int *a
   for (int f = 0; f < model->foot_count; f++) {
     const ambulo_foot *foot = &model->feet[f];
     int contact = active[f];
-    int mode = contact < 0 ? -1 : (int)d->contacts[contact].mode;
     int corner[4] = {foot->heel[0], foot->heel[1], foot->toe[0], foot->toe[1]};
     for (int k = 0; k < 4; k++) {
       if (corner[k] < 0) continue;
-      int down =
-          mode == AMBULO_CONTACT_FLAT || mode == (k < 2 ? AMBULO_CONTACT_HEEL : AMBULO_CONTACT_TOE);
+      int down = contact >= 0 && ambulo__corner_in_contact(d->contacts[contact].mode, k < 2);
       ambulo_status one = check_corner(d, f, corner[k], down, final, place, list);
       if (one) status = one;
     }

@@ -4,6 +4,7 @@
 #include "ambulo/mechanics.h"
 #include "base/arithmetic.h"
 #include "mechanics/lagrangian.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,6 +28,18 @@ static ambulo__bound image(const double *limit, int partner, int is_upper, doubl
   ambulo__bound bound = {sign * (limit[is_upper] - shift), partner, is_upper, limit[is_upper],
                          duration};
   return bound;
+}
+
+double ambulo__end_shift(const ambulo_problem_definition *definition, int i) {
+  const ambulo_model *model = definition->model;
+  if (definition->ends == AMBULO_ENDS_FREE || !ambulo__is_root_translation(model, i)) return 0.0;
+  double axis[3], along = 0.0, upward = 0.0;
+  ambulo__neutral_axis(model, i, axis);
+  for (int k = 0; k < 3; k++) {
+    along += axis[k] * model->forward[k];
+    upward += axis[k] * model->up[k];
+  }
+  return definition->travel * along + definition->rise * upward;
 }
 
 ambulo__bounds ambulo__bounds_of(const ambulo_problem_definition *d, int i, ambulo_limited what) {

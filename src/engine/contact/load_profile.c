@@ -56,30 +56,6 @@ double ambulo__hold_window(const ambulo_hold *hold, double duration, double time
   return window;
 }
 
-/* S'(u) */
-static double step_slope(double u) {
-  return u > 0.0 && u < 1.0 ? 6.0 * u * (1.0 - u) : 0.0;
-}
-
-/* (H.6) dw by the time, from, to and ramp */
-ambulo__hold_slopes ambulo__hold_slopes_at(const ambulo_hold *hold, double duration, double time) {
-  double u = (time - hold->from) / hold->ramp, v = (hold->to - time) / hold->ramp;
-  double up = 1.0, down = 1.0, rise = 0.0, fall = 0.0;
-  if (ambulo__hold_rises(hold)) {
-    up = ambulo__smooth_step(u);
-    rise = step_slope(u) / hold->ramp;
-  }
-  if (ambulo__hold_falls(hold, duration)) {
-    down = ambulo__smooth_step(v);
-    fall = step_slope(v) / hold->ramp;
-  }
-  ambulo__hold_slopes w = {.value = up * down, .by_from = -rise * down, .by_to = up * fall};
-  w.by_time = -w.by_from - w.by_to;
-  if (rise != 0.0) w.by_ramp -= u * rise * down;
-  if (fall != 0.0) w.by_ramp -= v * fall * up;
-  return w;
-}
-
 int ambulo__hold_events(const ambulo_hold *hold, double duration, double time[4]) {
   int count = 0;
   if (ambulo__hold_rises(hold)) {

@@ -41,19 +41,6 @@ double ambulo__tip_time(const ambulo_problem_definition *d, int foot, double tim
   return air->from + d->clearance.tip_from * (air->to - air->from);
 }
 
-int ambulo__event_at(const ambulo__events *events, double time) {
-  int low = 0, high = events->count; /* the first that is not before `time` */
-  while (low < high) {
-    int middle = low + (high - low) / 2;
-    if (events->time[middle] < time - AMBULO__INSTANT) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < events->count && events->time[low] <= time + AMBULO__INSTANT ? low : -1;
-}
-
 int ambulo__edge_times(const ambulo_problem_definition *d, int foot, ambulo__span air,
                        double time[2]) {
   ambulo_contact from = {.foot = foot}, to = from;

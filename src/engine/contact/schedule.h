@@ -41,8 +41,6 @@ int ambulo__edge_times(const ambulo_problem_definition *definition, int foot, am
                        double time[2]);
 /* 1 if the definition has rows on the tips of feet. Contacts need not be legal. */
 int ambulo__has_tip_rows(const ambulo_problem_definition *definition);
-/* The event at `time`, -1: there is none. */
-int ambulo__event_at(const ambulo__events *events, double time);
 
 /* Fewest intervals of a phase: of the time nodes, and of the trajectory. */
 enum {
@@ -87,11 +85,6 @@ ambulo_status ambulo__knot_times(const ambulo_problem_definition *definition, in
  * both become that; 0 if it has none. */
 int ambulo__swing_contacts(const ambulo_problem_definition *definition, int foot, double time,
                            ambulo_contact *from, ambulo_contact *to);
-
-/* Which of the definition's contacts one of those is, and in *period how many periods later; -1:
- * none. */
-int ambulo__swing_source(const ambulo_problem_definition *definition, const ambulo_contact *image,
-                         int *period);
 
 /* The plane that a foot's corners stay above: of the contact at `time`, else of the lower one of
  * those between which it swings, else the level ground. */

@@ -2,7 +2,7 @@
 #include "linear/sparse_rows.h"
 
 #include "base/arithmetic.h"
-#include "problem/nonfinite.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <string.h>

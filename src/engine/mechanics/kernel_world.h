@@ -196,7 +196,7 @@ AMBULO__INLINE wide6 diagonal_inertia(const ambulo__local_step *step, const loca
 }
 
 /* base 1 + first u u^T + second w w^T, see plan_inertia.c. */
-AMBULO__INLINE wide6 oblique_inertia(const ambulo__body *body, const local_place *p) {
+AMBULO__INLINE wide6 oblique_inertia(const ambulo__rigid_body *body, const local_place *p) {
   const wide3 columns[3] = {p->x, p->y, p->z};
   wide3 x = columns[body->order[0]], y = columns[body->order[1]], z = columns[body->order[2]];
   x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
@@ -231,7 +231,7 @@ AMBULO__INLINE wide33 body_coriolis(wide3 v, wide3 h, wide3 w, wide6 j) {
 }
 
 /* (10 W) load of the subtree about the world origin */
-AMBULO__INLINE void store_body(const ambulo__local_step *step, const ambulo__body *body,
+AMBULO__INLINE void store_body(const ambulo__local_step *step, const ambulo__rigid_body *body,
                                const world_state *s, double *to) {
   wide3 w = s->w, c = body_center(step, &s->place), x = add3(s->place.o, c);
   wide3 sweep = cross3(w, c), v = add3(s->v, sweep);

@@ -171,7 +171,7 @@ static void collect_bodies(ambulo__plan *plan, const ambulo_model *model,
   for (int k = 1; k <= plan->coordinates; k++) {
     plan->frames[k].body = -1;
     if (!(masses[k].mass > 0)) continue;
-    ambulo__body *body = &plan->body[plan->bodies];
+    ambulo__rigid_body *body = &plan->body[plan->bodies];
     ambulo__mass_factor(&masses[k], body);
     body->frame = k;
     plan->mass += body->mass;
@@ -287,23 +287,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan);
 }
 
-/* the sizes of a plan. */
-
-int ambulo__plan_coordinates(const ambulo__plan *plan) {
-  return plan->coordinates;
-}
-
-int ambulo__plan_points(const ambulo__plan *plan) {
-  return plan->points;
-}
-
-int ambulo__plan_contacts(const ambulo__plan *plan) {
-  return plan->contacts;
-}
-
-int ambulo__plan_ground_entries(const ambulo__plan *plan) {
-  return plan->contacts > 0 ? 3 + 4 * plan->contacts : 0;
-}
+/* what a plan needs. */
 
 int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {
   return plan->joints[coordinate].torque_row == AMBULO__ROW_VANISHES;

@@ -88,7 +88,7 @@ static double smallest_eigenvalue(const double inertia[3][3]) {
   return fmin(m[0][0], fmin(m[1][1], m[2][2]));
 }
 
-void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body) {
+void ambulo__mass_factor(const ambulo__mass *mass, ambulo__rigid_body *body) {
   double b[3][3], scale = mass->inertia[0][0] + mass->inertia[1][1] + mass->inertia[2][2];
   memcpy(b, mass->inertia, sizeof b);
   body->mass = mass->mass;
@@ -146,7 +146,7 @@ void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body) {
  * another joint, as an oblique one, they keep their rows, so that kernels find those without
  * entries first among the ancestors.)
  *
- * Contacts: plan_contacts.c.
+ * Contacts: plan_steps.c.
  */
 
 /* Coordinate of the parent frame, -1 at the world. */

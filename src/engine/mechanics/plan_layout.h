@@ -84,9 +84,9 @@ typedef struct ambulo__plan_point {
 struct ambulo__plan {
   ambulo_allocator allocator;
   int coordinates, points, bodies;
-  ambulo__frame *frames; /* [coordinates + 1] */
-  ambulo__joint *joints; /* [coordinates] */
-  ambulo__body *body;    /* [bodies] */
+  ambulo__frame *frames;    /* [coordinates + 1] */
+  ambulo__joint *joints;    /* [coordinates] */
+  ambulo__rigid_body *body; /* [bodies] */
   ambulo__plan_point *point;
   double gravity[3];
   size_t taken_at;      /* what the bodies hold (ambulo__plan_take_wrench); 0: nothing */
@@ -132,7 +132,7 @@ ambulo__mass ambulo__mass_of_link(const ambulo_link *link, const ambulo__placing
 /* Adds b to a as one rigid body. */
 void ambulo__mass_add(ambulo__mass *a, const ambulo__mass *b);
 /* Writes mass, com and the factors of the inertia. */
-void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
+void ambulo__mass_factor(const ambulo__mass *mass, ambulo__rigid_body *body);
 
 /* What the body stands on. */
 typedef struct ambulo__footing {

@@ -15,7 +15,7 @@ static int along(const double v[3]) {
 }
 
 /* base 1 + first u u^T + second w w^T, see plan_inertia.c, in the frame's axes. */
-static void set_inertia(ambulo__local_step *step, const ambulo__body *body) {
+static void set_inertia(ambulo__local_step *step, const ambulo__rigid_body *body) {
   static const int place[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   double u[3] = {0}, w[3] = {0};
   u[body->order[0]] = 1;
@@ -34,7 +34,7 @@ static void set_inertia(ambulo__local_step *step, const ambulo__body *body) {
   }
 }
 
-static void set_body(ambulo__local_step *step, const ambulo__body *body) {
+static void set_body(ambulo__local_step *step, const ambulo__rigid_body *body) {
   static const ambulo__body_kind kinds[] = {AMBULO__BODY_X, AMBULO__BODY_Y, AMBULO__BODY_Z,
                                             AMBULO__BODY_DIAGONAL};
   step->mass = body->mass;

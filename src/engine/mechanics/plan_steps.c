@@ -298,3 +298,21 @@ int ambulo__plan_contact_parts(const ambulo__plan *plan, int row, ambulo__row_pa
 int ambulo__plan_contact_entries(const ambulo__plan *plan) {
   return (contacts_first + plan->contacts * contact_slot) / AMBULO__LANES;
 }
+
+/* the sizes of a plan. */
+
+int ambulo__plan_coordinates(const ambulo__plan *plan) {
+  return plan->coordinates;
+}
+
+int ambulo__plan_points(const ambulo__plan *plan) {
+  return plan->points;
+}
+
+int ambulo__plan_contacts(const ambulo__plan *plan) {
+  return plan->contacts;
+}
+
+int ambulo__plan_ground_entries(const ambulo__plan *plan) {
+  return plan->contacts > 0 ? 3 + 4 * plan->contacts : 0;
+}

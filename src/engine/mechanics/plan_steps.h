@@ -8,7 +8,7 @@
 
 #include "mechanics/plan.h"
 
-typedef struct ambulo__body {
+typedef struct ambulo__rigid_body {
   int frame;
   double mass;
   double com[3]; /* in the frame */
@@ -18,7 +18,7 @@ typedef struct ambulo__body {
   double base, first, second, lower[3];
   int order[3];
   int diagonal; /* lower = 0 */
-} ambulo__body;
+} ambulo__rigid_body;
 
 /* A joint's row and column of the Jacobians: pairs first .. first + count of
  * ancestors, and the joint itself. The first `straight` pairs are with straight

@@ -3,7 +3,7 @@
 
 #include "base/arithmetic.h"
 #include "method/parameters.h"
-#include "problem/nonfinite.h"
+#include "problem/nlp.h"
 
 #include <math.h>
 #include <string.h>

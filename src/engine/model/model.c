@@ -1,8 +1,7 @@
 /* model/model.c - building an immutable model from a definition, and freeing it.
  *
- * Reading order: model.h, model.c, model_check.c (link_check.c, body_check.c, contact_check.c,
- * capsule_check.c), query.c; capsule_points.h; segments.h and composite.h for the body as a whole,
- * mirror_image.h for what it needs them for.
+ * Reading order: model.h, model.c, model_check.c, contact_check.c, link_bodies.c, model_query.c,
+ * neutral_pose.h, placement.h, mirror_image.h, conditions.h.
  */
 #include "model/model.h"
 

@@ -12,7 +12,6 @@
 
 #include "base/arithmetic.h"
 #include "problem/callbacks.h"
-#include "problem/nonfinite.h"
 #include "problem/hold_wrench.h"
 
 #include <string.h>
@@ -20,6 +19,80 @@
 static double *weight_at(ambulo_workspace *workspace, int node, int channel) {
   return &workspace->weight[ambulo__lane_index(node, workspace->channel_count, channel)];
 }
+
+/* ------------------------------------------------------------ values of terms */
+
+static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  const ambulo_problem *p = workspace->problem;
+  double sum = 0.0;
+  for (int k = 0; k < p->nodes; k++)
+    sum += p->quadrature[k] * ambulo__user_term_value(workspace, term, k);
+  return sum;
+}
+
+/* one coordinate of a term, block by block; the padding has weight zero */
+static double coordinate_value(const ambulo_workspace *workspace, const ambulo_term *term,
+                               double least, int i, double factor, double *slopes) {
+  const ambulo_problem *p = workspace->problem;
+  double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
+  double sum[AMBULO__LANES] = {0.0}, total = 0.0;
+  int channel = ambulo__term_channel(term, &p->channels, i);
+  for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
+    const size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
+    double *to = slopes + at;
+    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
+    ambulo__term_shapes(term, least, u, value, slope);
+    for (int l = 0; l < AMBULO__LANES; l++) {
+      sum[l] += p->quadrature[k + l] * value[l];
+      to[l] += factor * p->quadrature[k + l] * slope[l];
+    }
+  }
+  for (int l = 0; l < AMBULO__LANES; l++) total += sum[l];
+  return total;
+}
+
+static double simple_term_value(const ambulo_workspace *workspace, const ambulo_term *term,
+                                double factor, double *slopes) {
+  double sum = 0.0, least = ambulo__term_least(term);
+  for (int i = 0; i < workspace->problem->coordinates; i++) {
+    double scale = ambulo__term_scale(term, i);
+    if (scale != 0.0) sum += coordinate_value(workspace, term, least, i, factor * scale, slopes);
+  }
+  return sum;
+}
+
+static double composite_term_value(const ambulo_workspace *workspace, const ambulo_term *term,
+                                   double factor, double *slopes) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_context context = ambulo__term_context_of(workspace);
+  double sum = 0.0, least = ambulo__term_least(term);
+  for (int k = 0; k < p->nodes; k++) {
+    int count = ambulo__term_forms(term, &context, k);
+    double node = 0.0, quadrature = ambulo__term_quadrature(p, term, k);
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &context, k, j, &form);
+      if (form.count == 0) continue;
+      ambulo__residual phi = ambulo__term_residual_from(term, least, form.u);
+      double slope = factor * quadrature * phi.slope;
+      for (int c = 0; c < form.count; c++)
+        slopes[ambulo__lane_index(k + form.ahead[c], workspace->channel_count, form.channel[c])] +=
+            slope * form.slope[c];
+      node += phi.value;
+    }
+    sum += quadrature * node;
+  }
+  return sum;
+}
+
+double ambulo__term_value(ambulo_workspace *workspace, const ambulo_term *term, double factor,
+                          double *slopes) {
+  if (ambulo__is_user_term(term)) return user_term_value(workspace, term);
+  if (ambulo__term_is_simple(term)) return simple_term_value(workspace, term, factor, slopes);
+  return composite_term_value(workspace, term, factor, slopes);
+}
+
+/* -------------------------------------------------------------------- adjoints */
 
 static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
   const ambulo_problem *p = workspace->problem;
@@ -112,9 +185,7 @@ void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {
   memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
 }
 
-/* adjoints of objective_weight times all terms, at a point that is evaluated, and gradient to zero
- */
-static void begin(ambulo_workspace *workspace, double objective_weight, double *gradient) {
+void ambulo__adjoint_begin(ambulo_workspace *workspace, double objective_weight, double *gradient) {
   const ambulo_problem *p = workspace->problem;
   size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
   const double *restrict slope = workspace->term_slope;
@@ -133,35 +204,11 @@ static void begin(ambulo_workspace *workspace, double objective_weight, double *
 
 /* --------------------------------------------------------------------- the sweep */
 
-/* from the adjoints of the channels to the gradient */
-static void pull_back(ambulo_workspace *workspace, double *gradient) {
+void ambulo__adjoint_pull_back(ambulo_workspace *workspace, double *gradient) {
   const ambulo_problem *p = workspace->problem;
   size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *w = workspace->weight;
   for (int block = 0; block < p->blocks; block++) ambulo__adjoint_block(workspace, block);
   ambulo__lane_map_transpose(p->map, w, w + d8, w + 2 * d8, NULL, stride, gradient);
-}
-
-/* (L) B_0'g_q + B_1'g_qd + B_2'g_qdd */
-ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
-                               const double *row_weights, double *gradient) {
-  double start = ambulo__seconds_now();
-  size_t n = (size_t)workspace->problem->variables;
-  begin(workspace, objective_weight, gradient);
-  if (row_weights) ambulo__adjoint_rows(workspace, row_weights, gradient);
-  pull_back(workspace, gradient);
-  int finite = ambulo__all_finite(gradient, n);
-  if (!finite) ambulo__fault_of_gradient(workspace, objective_weight, row_weights, gradient);
-  workspace->seconds_evaluate += ambulo__seconds_now() - start;
-  return finite ? AMBULO_OK : AMBULO_E_NUMERIC;
-}
-
-ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient) {
-  ambulo__adjoint_clear(workspace, gradient);
-  ambulo__adjoint_term(workspace, term, 1.0);
-  pull_back(workspace, gradient);
-  if (ambulo__all_finite(gradient, (size_t)workspace->problem->variables)) return AMBULO_OK;
-  ambulo__fault_of_term_gradient(workspace, term, gradient);
-  return AMBULO_E_NUMERIC;
 }

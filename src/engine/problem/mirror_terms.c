@@ -175,9 +175,8 @@ static ambulo_status refuse(const ambulo_problem_definition *d, int t, int i, co
                 e->other, unit, e->odd ? "the opposite" : "the same");
 }
 
-ambulo_status ambulo__mirror_coordinates(const ambulo_problem_definition *d,
-                                         const ambulo__segments *s, int t,
-                                         ambulo_diagnostics *list) {
+static ambulo_status check_coordinates(const ambulo_problem_definition *d,
+                                       const ambulo__segments *s, int t, ambulo_diagnostics *list) {
   (void)s;
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < d->model->coordinate_count; i++) {
@@ -282,8 +281,8 @@ static ambulo_status refuse_line(const ambulo_problem_definition *d, const ambul
                 names[1], mover_of(s, own.segment[1]), left[1], expected);
 }
 
-ambulo_status ambulo__mirror_line(const ambulo_problem_definition *d, const ambulo__segments *s,
-                                  int t, ambulo_diagnostics *list) {
+static ambulo_status check_line(const ambulo_problem_definition *d, const ambulo__segments *s,
+                                int t, ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
   line own = line_of(s, term);
   for (int u = 0; u < d->term_count; u++) {
@@ -298,9 +297,8 @@ ambulo_status ambulo__mirror_line(const ambulo_problem_definition *d, const ambu
 
 /* ---------------------------------------------------------------------- devices */
 
-ambulo_status ambulo__mirror_device_scales(const ambulo_problem_definition *d,
-                                           const ambulo__segments *s, int t,
-                                           ambulo_diagnostics *list) {
+static ambulo_status check_devices(const ambulo_problem_definition *d, const ambulo__segments *s,
+                                   int t, ambulo_diagnostics *list) {
   (void)s;
   const double *scale = d->terms[t].device_scale;
   for (int i = 0; scale && i < d->device_count; i++) {
@@ -316,6 +314,13 @@ ambulo_status ambulo__mirror_device_scales(const ambulo_problem_definition *d,
   return AMBULO_OK;
 }
 
+static ambulo_status (*const checks[])(const ambulo_problem_definition *d,
+                                       const ambulo__segments *s, int t,
+                                       ambulo_diagnostics *list) = {
+    [AMBULO__MIRROR_COORDINATES] = check_coordinates,
+    [AMBULO__MIRROR_LINE] = check_line,
+    [AMBULO__MIRROR_DEVICES] = check_devices};
+
 ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *d,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *list) {
@@ -325,8 +330,8 @@ ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *d,
   if (status) return status;
   for (int t = 0; t < d->term_count; t++) {
     const ambulo__term_info *info = ambulo__term_info_of(d->terms[t].kind);
-    if (d->terms[t].weight == 0.0 || !info->check_mirror) continue;
-    ambulo_status one = info->check_mirror(d, &segments, t, list);
+    if (d->terms[t].weight == 0.0 || info->mirror == AMBULO__MIRROR_NOTHING) continue;
+    ambulo_status one = checks[info->mirror](d, &segments, t, list);
     if (one) status = one;
   }
   ambulo__segments_free(&segments);

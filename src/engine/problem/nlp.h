@@ -60,7 +60,6 @@ struct ambulo_problem {
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section *free; /* one block (solver/free_trial.c); NULL: nothing is free */
   const ambulo_problem *extends;     /* what this one extends (problem/variants.c); NULL: none */
-  ambulo_problem *owned_base;        /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
   const ambulo__kernels *kernels;
@@ -170,6 +169,26 @@ void ambulo__adjoint_term(ambulo_workspace *workspace, int term, double objectiv
 void ambulo__adjoint_rows(ambulo_workspace *workspace, const double *row_weights, double *gradient);
 /* Adds the mechanics' reverse sweep to the adjoints of q, qd, qdd of one block. */
 void ambulo__adjoint_block(ambulo_workspace *workspace, int block);
+/* Sets them to those of objective_weight times all terms, at a point that is evaluated, and the
+ * gradient to zero. */
+void ambulo__adjoint_begin(ambulo_workspace *workspace, double objective_weight, double *gradient);
+/* From the adjoints of the channels to the gradient. */
+void ambulo__adjoint_pull_back(ambulo_workspace *workspace, double *gradient);
+
+/* ---------------------------------------- what is not finite, once seen (nonfinite.c) */
+
+/* Which value or derivative it is: looking for it takes a few evaluations. These write
+ * workspace->fault. */
+/* After an evaluation with a row or an objective that is not finite. */
+void ambulo__fault_of_values(ambulo_workspace *workspace);
+/* After a gradient that is not finite; the arguments as in ambulo__gradient. */
+void ambulo__fault_of_gradient(ambulo_workspace *workspace, double objective_weight,
+                               const double *row_weights, const double *gradient);
+/* second derivatives of the objective, sizes that are not finite */
+void ambulo__fault_of_curvature(ambulo_workspace *workspace, double value);
+void ambulo__fault_of_term_gradient(ambulo_workspace *workspace, int term, const double *gradient);
+/* A row whose derivative by unknown `variable` is `value`. */
+void ambulo__fault_of_row(ambulo_workspace *workspace, int row, int variable, double value);
 
 /* ---------------------------------------------------------- ground reaction */
 
@@ -266,11 +285,6 @@ void ambulo__start_pose(const ambulo_problem *problem, double *x);
 ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int intervals,
                                         int spline_intervals, const ambulo_allocator *allocator,
                                         ambulo_problem **out);
-/* `base` extended by what `like` has beyond its root, which takes `base` over, also on
- * failure; *extended is `base` itself where that is nothing. Errors: as ambulo_problem_extend. */
-ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *base,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo_problem **extended);
 /* ambulo_problem_create of a definition that is known to be good, or that moves beyond the ranges
  * of members a little; its obstacles have names that outlive it. */
 ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,

@@ -1,11 +1,10 @@
-/* problem/nonfinite.c - where a value or a derivative is not finite (nonfinite.h).
+/* problem/nonfinite.c - where a value or a derivative is not finite (nlp.h).
  *
  * Values: the unknowns, then the rows, then each term node by node, with the channels that the
  * failed evaluation left. Derivatives: the reverse sweep of gradient.c once more, piece by piece;
  * the first adjoint that is not finite stands at a node and a channel. Adjoints that are all
  * finite leave the mechanics, where block by block the lanes tell the node.
  */
-#include "problem/nonfinite.h"
 
 #include "problem/callbacks.h"
 #include "problem/nlp.h"

@@ -356,6 +356,5 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo_model_free(p->extended_model);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p->free);
-  ambulo_problem_free(p->owned_base);
   ambulo__free(&a, p);
 }

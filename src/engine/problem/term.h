@@ -37,7 +37,6 @@ double ambulo__power_least(double power, double smoothing);
 
 struct ambulo__term_context;
 struct ambulo__form;
-struct ambulo__segments;
 
 /* What a residual stands for: decides on its channel, its units and its size in another body.
  * Kinds by coordinate have a residual, a scale and a mirror partner for each coordinate. */
@@ -72,6 +71,14 @@ enum {
   AMBULO__TERM_CALLBACK = 1 << 11  /* function, user: not in files */
 };
 
+/* Which two sides have to agree, with mirrored ends (mirror_terms.c). */
+typedef enum ambulo__term_mirror {
+  AMBULO__MIRROR_NOTHING = 0,
+  AMBULO__MIRROR_COORDINATES,
+  AMBULO__MIRROR_LINE,
+  AMBULO__MIRROR_DEVICES
+} ambulo__term_mirror;
+
 /* A kind of term: all that readers, checks, evaluation and the solver ask about it. */
 typedef struct ambulo__term_info {
   const char *name; /* in problem files and reports */
@@ -86,10 +93,7 @@ typedef struct ambulo__term_info {
   int (*forms)(const struct ambulo__term_context *context);
   void (*form)(const ambulo_term *term, const struct ambulo__term_context *context, int node, int j,
                struct ambulo__form *form);
-  /* With mirrored ends: refuses what the two sides are asked unlike; NULL: nothing can be. */
-  ambulo_status (*check_mirror)(const ambulo_problem_definition *definition,
-                                const struct ambulo__segments *segments, int term,
-                                ambulo_diagnostics *diagnostics);
+  ambulo__term_mirror mirror; /* what mirrored ends ask of it */
   const char *(*lacks)(
       const ambulo_problem_definition *definition); /* what it needs; NULL: nothing */
 } ambulo__term_info;
@@ -181,17 +185,5 @@ double ambulo__strength(const double curve[3], double q, double *derivative);
 ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *definition,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics);
-
-/* That of one term, by its kind (term_kinds.c): coordinates, a line of the body, scales of devices.
- */
-ambulo_status ambulo__mirror_coordinates(const ambulo_problem_definition *definition,
-                                         const struct ambulo__segments *segments, int term,
-                                         ambulo_diagnostics *diagnostics);
-ambulo_status ambulo__mirror_line(const ambulo_problem_definition *definition,
-                                  const struct ambulo__segments *segments, int term,
-                                  ambulo_diagnostics *diagnostics);
-ambulo_status ambulo__mirror_device_scales(const ambulo_problem_definition *definition,
-                                           const struct ambulo__segments *segments, int term,
-                                           ambulo_diagnostics *diagnostics);
 
 #endif

@@ -71,31 +71,6 @@ ambulo_status ambulo_problem_extend(const ambulo_problem *problem,
   return ambulo__conclude(diagnostics, errors, status, NULL);
 }
 
-ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *base,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo_problem **extended) {
-  const ambulo_problem_definition *d = &like->definition;
-  const ambulo_problem_definition *root = &ambulo__problem_root(like)->definition;
-  ambulo_extension e = ambulo_extension_default();
-  e.term_count = d->term_count - root->term_count;
-  e.user_row_count = d->user_row_count - root->user_row_count;
-  if (e.term_count == 0 && e.user_row_count == 0) {
-    *extended = base;
-    return AMBULO_OK;
-  }
-  e.terms = d->terms + root->term_count;
-  e.user_rows = d->user_rows + root->user_row_count;
-  ambulo_problem *made = NULL;
-  ambulo_status status = ambulo_problem_extend(base, &e, allocator, diagnostics, &made);
-  if (!made) {
-    ambulo_problem_free(base);
-    return status;
-  }
-  made->owned_base = base;
-  *extended = made;
-  return AMBULO_OK;
-}
-
 /* ------------------------------------------------------------------ another grid */
 
 /* reference [count][d] at given times from that at the problem's nodes, linear in between */

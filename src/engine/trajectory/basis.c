@@ -1,8 +1,8 @@
 /* trajectory/basis.c - what all discretizations share: breakpoints, finding the
  * interval of a time, trimming the map to the control points that carry weight.
  *
- * Reading order: basis.h, bspline.c (central_difference.c, hermite.c), lane_map.h, transfer.c for
- * another grid; motion_fit.h, butterworth.h for given motions.
+ * Reading order: basis.h, basis.c, bspline.c, node_values.c (central differences, Hermite),
+ * lane_map.h, transfer.c for another grid; butterworth.h for measured motions.
  */
 #include "trajectory/basis.h"
 
@@ -186,15 +186,6 @@ void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point 
   basis->methods->at(basis, interval, time, point);
   trim(point, 0, 2, &point->first, &point->span);
   trim(point, 3, 3, &point->jerk_first, &point->jerk_span);
-}
-
-void ambulo__basis_tangent(const ambulo__basis *basis, double t, double rate,
-                           const double *breakpoint_rates, ambulo__basis_point *tangent) {
-  double time;
-  int interval = place(basis, t, &time);
-  memset(tangent, 0, sizeof *tangent);
-  if (basis->methods->tangent)
-    basis->methods->tangent(basis, interval, time, rate, breakpoint_rates, tangent);
 }
 
 double ambulo__basis_abscissa(const ambulo__basis *basis, int c, int *is_value) {

@@ -68,14 +68,6 @@ int ambulo__basis_span(const ambulo__basis *basis);
  * of the two nodes linearly. */
 void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point *point);
 
-/* How the map at a time changes per unit of something that moves the time by `rate` and the
- * breakpoints by breakpoint_rates[intervals + 1] (NULL: not at all): weights of orders 0..2, of
- * control points tangent->first .. first + span - 1, untrimmed. At a breakpoint the right-hand
- * limit (at the end the left-hand one); both sides agree where time and breakpoint move alike.
- * B-splines only; zero weights for others. */
-void ambulo__basis_tangent(const ambulo__basis *basis, double t, double rate,
-                           const double *breakpoint_rates, ambulo__basis_point *tangent);
-
 /* A representative time of control point c (Greville abscissa; node time), and
  * whether it stands for a value (1) or for a scaled rate (0, Hermite): what a
  * start that is linear in time needs. */
@@ -101,10 +93,6 @@ typedef struct ambulo__basis_methods {
    * stands on one). *point is cleared; all weights from point->first on, untrimmed. */
   void (*at)(const ambulo__basis *basis, int interval, double t, ambulo__basis_point *point);
   double (*abscissa)(const ambulo__basis *basis, int c, int *is_value);
-  /* Orders 0..2 of the map's tangent; rates of the breakpoints may be NULL, for zero. NULL: of
-   * other discretizations. */
-  void (*tangent)(const ambulo__basis *basis, int interval, double t, double rate,
-                  const double *breakpoint_rates, ambulo__basis_point *tangent);
 } ambulo__basis_methods;
 
 extern const ambulo__basis_methods ambulo__bspline_methods;

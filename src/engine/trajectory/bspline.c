@@ -15,12 +15,6 @@
  * (b) stays true when both sides are differentiated further, so D^o N_j,p takes p - o
  * steps of (a) and then o steps of (b). On a breakpoint the factor t - u_s = 0 makes the
  * last weight of orders 0 .. p - 1 exactly zero.
- *
- * Tangents (a dot) when t and the knots move: with m = N_j,k-1 / (u_j+k - u_j),
- *
- *     m. = (N_j,k-1. - m (u_j+k. - u_j.)) / (u_j+k - u_j),
- *     (a). = (t. - u_j.) m_j + (t - u_j) m_j. + (u_j+k+1. - t.) m_j+1 + (u_j+k+1 - t) m_j+1.,
- *     (b). = k (m_j. - m_j+1.)                                                        (c)
  */
 #include "trajectory/basis.h"
 
@@ -59,76 +53,6 @@ static void at(const ambulo__basis *basis, int interval, double t, ambulo__basis
   point->span = point->jerk_span = p + 1;
 }
 
-/* t and the knots that matter on one interval, with what they move by */
-typedef struct moving {
-  const double *knots;
-  double t, rate, knot_rate[2 * AMBULO__MAX_DEGREE]; /* [i]: of knot first + i */
-  int first, s;
-} moving;
-
-static moving moving_at(const ambulo__basis *basis, int interval, double t, double rate,
-                        const double *breakpoint_rates) {
-  int p = basis->degree;
-  moving m = {
-      .knots = basis->knots, .t = t, .rate = rate, .first = interval + 1, .s = p + interval};
-  for (int i = 0; breakpoint_rates && i < 2 * p; i++) {
-    int b = interval + 1 + i - p;
-    m.knot_rate[i] = b <= 0 || b >= basis->intervals ? 0.0 : breakpoint_rates[b];
-  }
-  return m;
-}
-
-static int is_still(const moving *m, int degree) {
-  int still = m->rate == 0.0;
-  for (int i = 0; i < 2 * degree; i++) still &= m->knot_rate[i] == 0.0;
-  return still;
-}
-
-/* N_j,k-1 over its knots' distance, and the tangent of that */
-static double share(const moving *m, int j, int k, double n, double n_rate, double *rate) {
-  double distance = m->knots[j + k] - m->knots[j], value = n / distance;
-  double stretch = m->knot_rate[j + k - m->first] - m->knot_rate[j - m->first];
-  *rate = (n_rate - value * stretch) / distance;
-  return value;
-}
-
-/* (c): raise_degree with the tangents */
-static void raise_both(const moving *m, int k, int differentiate, double *w, double *w_rate) {
-  w[k] = w_rate[k] = 0.0;
-  for (int i = k; i >= 0; i--) {
-    int j = m->s - k + i;
-    double own = 0.0, own_rate = 0.0, next = 0.0, next_rate = 0.0;
-    if (i > 0) own = share(m, j, k, w[i - 1], w_rate[i - 1], &own_rate);
-    if (i < k) next = share(m, j + 1, k, w[i], w_rate[i], &next_rate);
-    w[i] = k * (own - next);
-    w_rate[i] = k * (own_rate - next_rate);
-    if (differentiate) continue;
-    w[i] = w_rate[i] = 0.0;
-    if (i > 0) {
-      w[i] += (m->t - m->knots[j]) * own;
-      w_rate[i] += (m->rate - m->knot_rate[j - m->first]) * own + (m->t - m->knots[j]) * own_rate;
-    }
-    if (i < k) {
-      double left = m->knots[j + k + 1] - m->t;
-      w[i] += left * next;
-      w_rate[i] += (m->knot_rate[j + k + 1 - m->first] - m->rate) * next + left * next_rate;
-    }
-  }
-}
-
-/* (23) by what moves t and the breakpoints */
-static void tangent(const ambulo__basis *basis, int interval, double t, double rate,
-                    const double *breakpoint_rates, ambulo__basis_point *out) {
-  int p = basis->degree;
-  moving m = moving_at(basis, interval, t, rate, breakpoint_rates);
-  for (int order = 0; order <= 2 && !is_still(&m, p); order++) {
-    double w[AMBULO__MAX_SPAN] = {1.0};
-    for (int k = 1; k <= p; k++) raise_both(&m, k, k > p - order, w, out->weight[order]);
-  }
-  out->first = interval;
-  out->span = p + 1;
-}
-
 /* Greville abscissa: mean of the inner knots of N_c,p; a spline with P_c = that is q = t */
 static double abscissa(const ambulo__basis *basis, int c, int *is_value) {
   double sum = 0.0;
@@ -137,4 +61,4 @@ static double abscissa(const ambulo__basis *basis, int c, int *is_value) {
   return sum / basis->degree;
 }
 
-const ambulo__basis_methods ambulo__bspline_methods = {control_points, span, at, abscissa, tangent};
+const ambulo__basis_methods ambulo__bspline_methods = {control_points, span, at, abscissa};

@@ -51,7 +51,7 @@ static double abscissa(const ambulo__basis *basis, int c, int *is_value) {
 }
 
 const ambulo__basis_methods ambulo__central_difference_methods = {control_points, span, at,
-                                                                  abscissa, NULL};
+                                                                  abscissa};
 
 /* piecewise cubic through node values and node rates.
  *
@@ -111,4 +111,4 @@ static double hermite_abscissa(const ambulo__basis *basis, int c, int *is_value)
 }
 
 const ambulo__basis_methods ambulo__hermite_methods = {hermite_control_points, hermite_span,
-                                                       hermite_at, hermite_abscissa, NULL};
+                                                       hermite_at, hermite_abscissa};
