@@ -24,7 +24,8 @@ typedef struct job {
   ambulo_problem *problem; /* of the file; with free parameters, then that of their best values */
   ambulo_problem *coarser; /* of the file, when `problem` is that on a finer grid */
   ambulo_result *result;
-  double *start;      /* NULL: zero */
+  ambulo_sensitivity_list *sensitivities; /* NULL: not asked for */
+  double *start;                          /* NULL: zero */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
   double time_limit;  /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
@@ -97,7 +98,6 @@ static int read_options(job *j) {
   j->directory = directory ? strdup(directory) : default_directory(input->arguments[0]);
   j->diagnostics = ambulo_diagnostics_create(NULL);
   if (!j->directory || !j->diagnostics) return ambulo_status_exit_code(AMBULO_E_MEMORY);
-  j->report.sensitivities = ambulo__cli_flag(input, "sensitivities");
   j->terminal = isatty(STDERR_FILENO) && !ambulo__cli_flag(input, "quiet");
   return 0;
 }
@@ -163,18 +163,16 @@ static ambulo_status print_json(const job *j) {
 
 static ambulo_status print_outcome(job *j, int written) {
   int quiet = ambulo__cli_flag(j->input, "quiet");
-  ambulo_status status = AMBULO_OK;
   if (ambulo__cli_flag(j->input, "json")) return print_json(j);
   if (!quiet) ambulo__cli_print_result(j->problem, j->result);
-  if (ambulo__cli_flag(j->input, "sensitivities"))
-    status = ambulo__cli_print_sensitivities(j->problem, j->result);
-  if (quiet) return status;
+  if (j->sensitivities) ambulo__cli_print_sensitivities(j->sensitivities);
+  if (quiet) return AMBULO_OK;
   if (written) {
     printf("written to   %s\n", j->directory);
     printf("picture      %s/gait.svg\n", j->directory);
   }
   ambulo__cli_print_last(j->result);
-  return status;
+  return AMBULO_OK;
 }
 
 static int verdict_exit_code(const ambulo_result *result) {
@@ -198,6 +196,9 @@ static int run_job(job *j) {
   status = ambulo__cli_load_problem(j->input, file, j->diagnostics, &j->problem);
   if (!status) status = load_start(j);
   if (!status) status = solve(j);
+  if (!status && ambulo__cli_flag(j->input, "sensitivities"))
+    status = ambulo_sensitivities(j->problem, j->result, NULL, &j->sensitivities);
+  j->report.sensitivities = j->sensitivities;
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);
   status =
       ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
@@ -210,6 +211,7 @@ static int run_job(job *j) {
 static int run(const ambulo__cli_input *input) {
   job j = {.input = input};
   int code = run_job(&j);
+  ambulo_sensitivities_free(j.sensitivities);
   ambulo_result_free(j.result);
   ambulo_problem_free(j.problem);
   ambulo_problem_free(j.coarser);

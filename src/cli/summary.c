@@ -162,11 +162,7 @@ static void print_sensitivity(const ambulo_sensitivity *s) {
   printf("  %-72s  %s = %.6g%s%s\n", s->words, s->name, s->value, s->unit[0] ? " " : "", s->unit);
 }
 
-ambulo_status ambulo__cli_print_sensitivities(const ambulo_problem *problem,
-                                              const ambulo_result *result) {
-  ambulo_sensitivity_list *list = NULL;
-  ambulo_status status = ambulo_sensitivities(problem, result, NULL, &list);
-  if (status) return status;
+void ambulo__cli_print_sensitivities(const ambulo_sensitivity_list *list) {
   printf("sensitivities\n");
   if (list->reason[0]) printf("  none: %s\n", list->reason);
   int printed = 0;
@@ -177,8 +173,6 @@ ambulo_status ambulo__cli_print_sensitivities(const ambulo_problem *problem,
   if (printed < list->count)
     printf("  %d more change the objective by less than %g %%\n", list->count - printed,
            100.0 * least_share);
-  ambulo_sensitivities_free(list);
-  return AMBULO_OK;
 }
 
 void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result) {

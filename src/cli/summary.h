@@ -10,10 +10,8 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
 /* What fails between the nodes and what helps, in one sentence; nothing where nothing fails. */
 void ambulo__cli_print_last(const ambulo_result *result);
 
-/* What each number of the problem costs, one in a line, or why that is not known. E_MEMORY,
- * E_NUMERIC. */
-ambulo_status ambulo__cli_print_sensitivities(const ambulo_problem *problem,
-                                              const ambulo_result *result);
+/* What each number of the problem costs, one in a line, or why that is not known. */
+void ambulo__cli_print_sensitivities(const ambulo_sensitivity_list *list);
 
 /* Every row: index, family, subject, detail, time, value, unit, multiplier. */
 void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result);

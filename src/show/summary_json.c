@@ -105,20 +105,14 @@ static void sensitivity(ambulo__json *json, const ambulo_sensitivity *s) {
 }
 
 /* how the objective changes with every number of the problem, or why that is not known */
-static ambulo_status sensitivities(ambulo__json *json, const ambulo_problem *problem,
-                                   const ambulo_result *result, int wanted) {
-  ambulo_sensitivity_list none = {.reason = "not asked for; ambulo solve --sensitivities has them"};
-  ambulo_sensitivity_list *list = NULL;
-  ambulo_status status =
-      wanted ? ambulo_sensitivities(problem, result, &json->text->allocator, &list) : AMBULO_OK;
-  if (status) return status;
-  const ambulo_sensitivity_list *shown = list ? list : &none;
+static void list_sensitivities(ambulo__json *json, const ambulo_sensitivity_list *list) {
+  const ambulo_sensitivity_list none = {.reason =
+                                            "not asked for; ambulo solve --sensitivities has them"};
+  if (!list) list = &none;
   ambulo__json_open(json, "sensitivities", '[');
-  for (int i = 0; i < shown->count; i++) sensitivity(json, &shown->items[i]);
+  for (int i = 0; i < list->count; i++) sensitivity(json, &list->items[i]);
   ambulo__json_close(json, ']');
-  ambulo__json_text(json, "no_sensitivities", shown->reason[0] ? shown->reason : NULL);
-  ambulo_sensitivities_free(list);
-  return AMBULO_OK;
+  ambulo__json_text(json, "no_sensitivities", list->reason[0] ? list->reason : NULL);
 }
 
 /* what became of the numbers that were free; nothing where none was */
@@ -334,7 +328,7 @@ static void versions(ambulo__json *json) {
 }
 
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          int with_sensitivities, ambulo__text_buffer *text) {
+                          const ambulo_sensitivity_list *sensitivities, ambulo__text_buffer *text) {
   ambulo__json writer = {.text = text, .first = 1};
   ambulo__json *json = &writer;
   ambulo_verdict verdict = ambulo_result_verdict(result);
@@ -359,7 +353,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   audit(json, result);
   between_nodes(json, result);
   explanation(json, result);
-  if (!status) status = sensitivities(json, problem, result, with_sensitivities);
+  list_sensitivities(json, sensitivities);
   sizes(json, problem);
   starts(json, ambulo_result_starts(result));
   effort(json, result);

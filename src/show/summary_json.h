@@ -2,6 +2,7 @@
 #ifndef AMBULO_SHOW_SUMMARY_JSON_H
 #define AMBULO_SHOW_SUMMARY_JSON_H
 
+#include "ambulo/sensitivity.h"
 #include "ambulo/solve.h"
 #include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
@@ -46,10 +47,8 @@ ambulo_status ambulo__reaction_json(ambulo__json *json, const ambulo_problem *pr
 
 /* summary.json (docs/results.md). */
 
-/* Appends the whole text, with sensitivities where they are asked for; failures stick to the
- * buffer.
- */
+/* Appends the whole text; sensitivities NULL: not asked for. Failures stick to the buffer. */
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          int with_sensitivities, ambulo__text_buffer *text);
+                          const ambulo_sensitivity_list *sensitivities, ambulo__text_buffer *text);
 
 #endif

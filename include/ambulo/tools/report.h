@@ -8,6 +8,7 @@
 #define AMBULO_TOOLS_REPORT_H
 
 #include "ambulo/tools/inverse.h"
+#include "ambulo/sensitivity.h"
 #include "ambulo/solve.h"
 
 #ifdef __cplusplus
@@ -20,7 +21,7 @@ typedef struct ambulo_report_options {
   int overwrite;     /* 1: replace an existing result folder */
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
                         a walk in gait.svg; NULL: none */
-  int sensitivities; /* 1: summary.json has them (ambulo/sensitivity.h): some 0.1 to 1 s */
+  const ambulo_sensitivity_list *sensitivities; /* for summary.json; NULL: it has none */
 } ambulo_report_options;
 AMBULO_TOOL_DEFAULT(ambulo_report_options);
 
