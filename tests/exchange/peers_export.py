@@ -12,8 +12,8 @@ import os
 import re
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "import"))
-import peers as imports  # noqa: E402
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import peers_import as imports  # noqa: E402
 
 MODELS = ["pendulum", "two_link", "walker_2d", "lower_body_21", "whole_body_29", "whole_body_45",
           "yardstick_body"]
