@@ -65,7 +65,9 @@ static inline ambulo_problem *moved_problem(const char *path, const char *const 
   return moved;
 }
 
-/* f - sum lambda c at x; NAN when the problem has other rows */
+/* f - sum lambda c at x; NAN when the problem has other rows. The sum carries what rounding drops
+ * (Neumaier): multipliers are random, so that the rows cancel and the sum is far smaller than they.
+ */
 static inline double lagrangian_at(const ambulo_problem *problem, const double *x,
                                    const double *multiplier, int rows) {
   ambulo_workspace *workspace = NULL;
@@ -73,7 +75,13 @@ static inline double lagrangian_at(const ambulo_problem *problem, const double *
   if (ambulo_problem_row_count(problem) == rows) {
     assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
     assert_int_equal(ambulo_problem_evaluate(problem, workspace, x, &value, NULL, row), AMBULO_OK);
-    for (int r = 0; r < rows; r++) value -= multiplier[r] * row[r];
+    double dropped = 0.0;
+    for (int r = 0; r < rows; r++) {
+      double next = -multiplier[r] * row[r], sum = value + next;
+      dropped += fabs(value) >= fabs(next) ? (value - sum) + next : (next - sum) + value;
+      value = sum;
+    }
+    value += dropped;
   }
   ambulo_workspace_free(workspace);
   free(row);
