@@ -1,9 +1,8 @@
-/* ambulo/solve.h - solving a problem, and how good the answer is.
+/* ambulo/solve.h - solving a problem, and judging the answer.
  *
- * Three different facts, kept apart: the ambulo_status of the call (was it legal,
- * was there memory), the ambulo_verdict (what is the point), and the ambulo_audit
- * (how good is it). The verdict comes from the audit alone: the solver's own return
- * code is reported, never believed.
+ * Three facts are kept apart: the ambulo_status of the call (was it legal, was there memory), the
+ * ambulo_verdict (what the point is), and the ambulo_audit (how good it is). The verdict follows
+ * from the audit alone. The solver's own return code is reported but not used.
  */
 #ifndef AMBULO_SOLVE_H
 #define AMBULO_SOLVE_H
@@ -14,7 +13,7 @@
 extern "C" {
 #endif
 
-/* Zero is no verdict, so that a result that nobody filled never reads as a good one. */
+/* Zero is no verdict, so a zero-filled value never reads as a solution. */
 #define AMBULO_VERDICT_LIST(X)                                                                     \
   X(AMBULO_NOT_JUDGED, "not_judged", "no audit was made")                                          \
   X(AMBULO_OPTIMAL, "optimal", "feasible, and a first-order (KKT) point")                          \
@@ -91,8 +90,8 @@ typedef struct ambulo_options {
   ambulo_algorithm algorithm;
   int maximum_evaluations; /* of the objective and the rows; 20000 */
   int maximum_iterations;  /* inner solves of AUGLAG a grid, calls of NLopt otherwise; 150 */
-  double time_limit; /* s of wall time; AMBULO_OFF: none. It holds from set-up to explanation; what
-                        it takes to judge the last point may add a tenth of it */
+  double time_limit; /* s of wall time, from set-up to explanation; AMBULO_OFF: none. The audit of
+                        the last point may add a tenth of it */
   double maximum_memory;        /* bytes that a solve may be predicted to take; AMBULO_OFF: what is
                                    free */
   double feasibility_tolerance; /* worst violation that counts as feasible, relative to the size of
@@ -294,15 +293,17 @@ typedef struct ambulo_history {
 
 typedef struct ambulo_result ambulo_result;
 
-/* Solves from `start` [variable_count] (NULL: the start pose, at rest: each coordinate at its
- * default_value, ambulo/model.h) with `options` (NULL: those of the problem's file, or the
- * defaults). A point is returned whatever the verdict; only E_ARGUMENT, E_PROBLEM (a row is not
- * finite at the start, named in diagnostics), E_LIMIT, E_MEMORY return none. */
+/* Solves from `start` [variable_count] (NULL: at rest in the start pose, each coordinate at its
+ * default_value, ambulo/model.h). `options` NULL: those of the problem's file, or the defaults.
+ * `allocator` and `diagnostics` may be NULL. A result is returned whatever the verdict; free it
+ * with ambulo_result_free, before the problem. Errors, without a result: E_ARGUMENT, E_PROBLEM (a
+ * row is not finite at the start; diagnostics name it), E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve(
     const ambulo_problem *problem, const ambulo_options *options, const double *start,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_result **result);
 
-/* Audits given control points as if a solver had returned them. */
+/* Audits control points x [variable_count] as if the solver had returned them. Arguments and errors
+ * as for ambulo_solve. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_audit_point(
     const ambulo_problem *problem, const ambulo_options *options, const double *x,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_result **result);
