@@ -113,6 +113,7 @@ static void test_places(void **state) {
   REFUSES("between 'foot_r' and 'foot_r', which do not move against each other", v.coordinate = -1;
           v.link[0] = v.link[1] = 6);
   REFUSES("would act on 'pelvis_tilt'", v.coordinate = -1; v.link[0] = 2; v.link[1] = 6);
+  REFUSES("would act on", v.coordinate = -1; v.link[0] = 0; v.link[1] = 6);
   REFUSES(NULL, v.coordinate = -1; v.link[0] = 6; v.link[1] = 9);
   const ambulo_device two[2] = {sound(), sound()};
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
