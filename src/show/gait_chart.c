@@ -227,7 +227,7 @@ static int mode_at(const ambulo__stride *stride, int effector, double t) {
 static void draw_span(const ambulo__panel *panel, double y, double from, double to, int mode,
                       ambulo__side side, ambulo__text_buffer *text) {
   double x = ambulo__panel_time(panel, from), width = ambulo__panel_time(panel, to) - x;
-  int whole = mode == AMBULO_CONTACT_FLAT || mode == AMBULO_CONTACT_PATCH;
+  int whole = ambulo__mode_is_flat(mode) || ambulo__mode_is_of_patch(mode);
   ambulo__svg_rectangle(text, whole ? side_bar[side] : side_partial[side], x, y, width, bar_height);
   if (width > 30.0)
     ambulo__svg_label(text, "inbar", x + width / 2.0, y + bar_height - 3.5, mode_words[mode]);

@@ -13,11 +13,6 @@
 
 enum { CONTACT_SAMPLES = 2400 }; /* of a stride of 1.2 s: .5 ms */
 
-static const char *const mode_words[] = {[AMBULO_CONTACT_HEEL] = "heel",
-                                         [AMBULO_CONTACT_FLAT] = "flat",
-                                         [AMBULO_CONTACT_TOE] = "toe",
-                                         [AMBULO_CONTACT_PATCH] = "patch"};
-
 /* -------------------------------------------------------------------- ground */
 
 static void surface(ambulo__json *json, const ambulo__surface *p) {
@@ -111,7 +106,7 @@ static void span(ambulo__json *json, const ambulo__stride *s, int effector,
   int patch = ambulo__effector_patch(s->model, effector);
   ambulo__json_open(json, NULL, '{');
   ambulo__json_text(json, "name", ambulo__effector_name(s->model, effector));
-  ambulo__json_text(json, "mode", mode_words[contact->mode]);
+  ambulo__json_text(json, "mode", ambulo__mode_of(contact->mode)->word);
   ambulo__json_number(json, "from", from);
   ambulo__json_number(json, "to", to);
   if (patch >= 0) rest(json, s, patch, contact, 0.5 * (from + to));

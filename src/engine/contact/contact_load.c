@@ -194,7 +194,7 @@ typedef struct roll {
 } roll;
 
 static double place_of(int mode) {
-  return mode == (int)AMBULO_CONTACT_HEEL ? 0.0 : mode == (int)AMBULO_CONTACT_TOE ? 1.0 : 0.5;
+  return ambulo__mode_is_on_heel(mode) ? 0.0 : ambulo__mode_is_on_toes(mode) ? 1.0 : 0.5;
 }
 
 static roll roll_of_flat(const ambulo__stance *stance, double time) {
@@ -215,7 +215,7 @@ static roll roll_of_flat(const ambulo__stance *stance, double time) {
 }
 
 static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
-  if (contact->mode == AMBULO_CONTACT_FLAT) return roll_of_flat(stance, time);
+  if (ambulo__mode_is_flat(contact->mode)) return roll_of_flat(stance, time);
   double along = place_of((int)contact->mode);
   return (roll){along, 1.0 - along, along};
 }
@@ -225,17 +225,17 @@ static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance,
 /* on the heel, of the time from strike to foot-flat; else 0 */
 static double rolled(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
   double rolling = contact->to - stance->from;
-  if (contact->mode != AMBULO_CONTACT_HEEL || !(rolling > 0.0) || isinf(rolling)) return 0.0;
+  if (!ambulo__mode_is_on_heel(contact->mode) || !(rolling > 0.0) || isinf(rolling)) return 0.0;
   return (time - stance->from) / rolling;
 }
 
 /* ends along forward, from the heel's foothold */
 static void box_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
                    double part_rolled, double box[2]) {
-  if (contact->mode == AMBULO_CONTACT_FLAT) {
+  if (ambulo__mode_is_flat(contact->mode)) {
     box[0] = r->flat_pressure[0];
     box[1] = length + r->flat_pressure[1];
-  } else if (contact->mode == AMBULO_CONTACT_TOE) {
+  } else if (ambulo__mode_is_on_toes(contact->mode)) {
     box[0] = length + r->toe_pressure[0];
     box[1] = length + r->toe_pressure[1];
   } else {
@@ -248,8 +248,8 @@ static void box_of(const ambulo_ground_reaction *r, const ambulo_contact *contac
 
 /* modes in which a part is down */
 static int modes_of(ambulo__slot_part part) {
-  if (part == AMBULO__REAR_FOOT) return 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT;
-  if (part == AMBULO__FORE_FOOT) return 1 << AMBULO_CONTACT_FLAT | 1 << AMBULO_CONTACT_TOE;
+  if (part == AMBULO__REAR_FOOT) return ambulo__modes_with(1);
+  if (part == AMBULO__FORE_FOOT) return ambulo__modes_with(0);
   return AMBULO__ANY_MODE;
 }
 
@@ -288,8 +288,8 @@ static void load_foot(const ambulo_problem_definition *d, const ambulo__foot_out
   load->box[0] -= center;
   load->box[1] -= center;
   load->side = r->pressure_width;
-  if (outline->has_arcs && contact->mode != AMBULO_CONTACT_FLAT)
-    load->arc = outline->arc[contact->mode == AMBULO_CONTACT_TOE];
+  if (outline->has_arcs && !ambulo__mode_is_flat(contact->mode))
+    load->arc = outline->arc[ambulo__mode_is_on_toes(contact->mode)];
 }
 
 /* (W.8) the contact of a slot */

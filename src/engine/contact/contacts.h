@@ -44,11 +44,27 @@ ambulo__span ambulo__image_span(const ambulo_problem_definition *definition, int
 ambulo_contact ambulo__contact_image(const ambulo_problem_definition *definition, int index,
                                      int period);
 
+/* What a mode decides: a row of the table in foot.c. */
+typedef struct ambulo__mode {
+  const char *word;    /* in files and scenes */
+  const char *posture; /* how the foot is, in messages */
+  int corners[2];      /* 1: toe corners are down, heel corners are: what holds the foot in place */
+  int is_of_patch;
+} ambulo__mode;
+
+/* NULL: no mode, -1 included. */
+const ambulo__mode *ambulo__mode_of(int mode);
+/* All corners are down, so that the foot can neither pitch nor roll; toe corners alone; heel
+ * corners alone. 0 of no mode. */
+int ambulo__mode_is_flat(int mode);
+int ambulo__mode_is_on_toes(int mode);
+int ambulo__mode_is_on_heel(int mode);
+int ambulo__mode_is_of_patch(int mode);
+
 /* Sets of modes: 1 << mode, added. */
-enum {
-  AMBULO__ANY_MODE = 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT | 1 << AMBULO_CONTACT_TOE |
-                     1 << AMBULO_CONTACT_PATCH
-};
+enum { AMBULO__ANY_MODE = -1 };
+/* Those with the toe corners down, with the heel corners down. */
+int ambulo__modes_with(int heel);
 
 /* A span of contact of an effector, made as long as contacts in one of `modes` touch it. */
 ambulo__span ambulo__uninterrupted(const ambulo_problem_definition *definition, int effector,

@@ -13,6 +13,50 @@
 
 #include <math.h>
 
+/* ------------------------------------------------------------- the table of modes */
+
+static const ambulo__mode mode_table[] = {
+    [AMBULO_CONTACT_HEEL] = {"heel", "on its heel", {0, 1}, 0},
+    [AMBULO_CONTACT_FLAT] = {"flat", "flat", {1, 1}, 0},
+    [AMBULO_CONTACT_TOE] = {"toe", "on its toes", {1, 0}, 0},
+    [AMBULO_CONTACT_PATCH] = {"patch", "on its patch", {0, 0}, 1},
+};
+
+enum { MODE_COUNT = sizeof mode_table / sizeof *mode_table };
+
+const ambulo__mode *ambulo__mode_of(int mode) {
+  return mode >= 0 && mode < MODE_COUNT && mode_table[mode].word ? &mode_table[mode] : NULL;
+}
+
+static int has_corners(int mode, int toe, int heel) {
+  const ambulo__mode *m = ambulo__mode_of(mode);
+  return m && !m->is_of_patch && m->corners[0] == toe && m->corners[1] == heel;
+}
+
+int ambulo__mode_is_flat(int mode) {
+  return has_corners(mode, 1, 1);
+}
+
+int ambulo__mode_is_on_toes(int mode) {
+  return has_corners(mode, 1, 0);
+}
+
+int ambulo__mode_is_on_heel(int mode) {
+  return has_corners(mode, 0, 1);
+}
+
+int ambulo__mode_is_of_patch(int mode) {
+  const ambulo__mode *m = ambulo__mode_of(mode);
+  return m && m->is_of_patch;
+}
+
+int ambulo__modes_with(int heel) {
+  int set = 0;
+  for (int mode = 0; mode < MODE_COUNT; mode++)
+    if (mode_table[mode].corners[heel]) set |= 1 << mode;
+  return set;
+}
+
 static const double facing = 0.90630778703664997; /* cosine of 25 degrees */
 
 int ambulo__contact_normal_is_legal(const double normal[3]) {
@@ -183,14 +227,14 @@ ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
 }
 
 int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel) {
-  if (mode == AMBULO_CONTACT_FLAT) return 1;
-  return is_heel ? mode == AMBULO_CONTACT_HEEL : mode == AMBULO_CONTACT_TOE;
+  const ambulo__mode *m = ambulo__mode_of((int)mode);
+  return m && m->corners[is_heel != 0];
 }
 
 int ambulo__contact_point(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
                           const ambulo_contact *contact, double place[3]) {
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, contact);
-  int on_toes = contact->mode == AMBULO_CONTACT_TOE;
+  int on_toes = ambulo__mode_is_on_toes(contact->mode);
   double ahead = on_toes ? outline->length : 0.0;
   for (int i = 0; i < 3; i++) place[i] = frame.origin[i] + ahead * frame.forward[i];
   if (contact->foot < 0) return d->model->patches[contact->patch].point;

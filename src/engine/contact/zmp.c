@@ -220,10 +220,6 @@ static void force_row(const ambulo__gait_context *context, int node, ambulo__row
   }
 }
 
-static const char *const mode_words[] = {[AMBULO_CONTACT_HEEL] = "on its heel",
-                                         [AMBULO_CONTACT_FLAT] = "flat",
-                                         [AMBULO_CONTACT_TOE] = "on its toes"};
-
 static ambulo_status refuse_empty(const ambulo__gait_context *context, int node, double size,
                                   int planar, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *definition = context->definition;
@@ -233,7 +229,7 @@ static ambulo_status refuse_empty(const ambulo__gait_context *context, int node,
   for (int i = 0; i < context->model->foot_count; i++) {
     if (active[i] < 0) continue;
     foot = context->model->feet[i].name;
-    mode = mode_words[definition->contacts[active[i]].mode];
+    mode = ambulo__mode_of(definition->contacts[active[i]].mode)->posture;
     loaded++;
   }
   if (loaded > 1) {
