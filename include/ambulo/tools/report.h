@@ -21,7 +21,7 @@ typedef struct ambulo_report_options {
   int overwrite;     /* 1: replace an existing result folder */
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
                         a walk in gait.svg; NULL: none */
-  const ambulo_sensitivity_list *sensitivities; /* of ambulo_sensitivities; NULL: not in summary.json */
+  const ambulo_sensitivity_list *sensitivities; /* NULL: summary.json has none */
 } ambulo_report_options;
 AMBULO_TOOL_DEFAULT(ambulo_report_options);
 
