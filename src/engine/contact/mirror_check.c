@@ -8,7 +8,7 @@
  *   patches  that are in contact: the partner's middle is the mirror image at q = 0, on a link that
  *            moves with the partner coordinate, and of the same size
  *
- * Terms: problem/mirror_terms.c. Footholds: contact/ends.c.
+ * Terms: problem/mirror_terms.c. Footholds: contact/footholds.c.
  */
 #include "contact/contacts.h"
 #include "contact/devices.h"

@@ -61,7 +61,7 @@ void ambulo__definition_drop(ambulo__taken_definition *taken);
 ambulo_status ambulo__option_ranges_check(const ambulo_options *options,
                                           ambulo_diagnostics *diagnostics);
 
-/* Numbers for a body of another size (definition_resize.c): of the first `terms` terms of the
+/* Numbers for a body of another size (definition_values.c): of the first `terms` terms of the
  * objective, and of all else. The arrays of these terms, and the list of them, belong to the
  * caller, and are written to. */
 void ambulo__definition_resize(ambulo_problem_definition *definition, int terms, double longer,
