@@ -145,17 +145,24 @@ int ambulo__read_key(const char *text, unsigned long long *key) {
   return strlen(text) == 16 && strspn(text, "0123456789abcdef") == 16;
 }
 
+/* the text of a cell that ends with `end`; NULL: it ends otherwise */
+static char *read_cell(char **at, char end) {
+  char *text = *at;
+  *at += strcspn(text, "\t\n");
+  if (**at != end) return NULL;
+  *(*at)++ = '\0';
+  return text;
+}
+
 /* 1: all columns of a line, of which the first three are `head` */
 static int read_line(const ambulo_sweep *s, char **at, char *head[COLUMNS], const char **cell) {
-  for (int i = 0; i < COLUMNS + s->axes; i++) {
-    char *text = *at, end = i + 1 < COLUMNS + s->axes ? '\t' : '\n';
-    *at += strcspn(text, "\t\n");
-    if (**at != end) return 0;
-    *(*at)++ = '\0';
-    if (i < COLUMNS)
-      head[i] = text;
-    else
-      cell[i - COLUMNS] = text;
+  for (int i = 0; i < COLUMNS; i++) {
+    head[i] = read_cell(at, i + 1 < COLUMNS + s->axes ? '\t' : '\n');
+    if (!head[i]) return 0;
+  }
+  for (int i = 0; i < s->axes; i++) {
+    cell[i] = read_cell(at, i + 1 < s->axes ? '\t' : '\n');
+    if (!cell[i]) return 0;
   }
   return 1;
 }

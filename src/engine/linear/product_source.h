@@ -80,8 +80,9 @@ static inline wide sums_of(const wide v[W]) {
 
 static inline double sum_of(wide v) {
   double part[4] = {0.0}, sum = 0.0;
-  for (int from = 0; from < W; from += 4) {
-    for (int i = 0; i < 4 && i < W; i++) part[i] = v[from + i];
+  enum { FOUR = W < 4 ? W : 4 };
+  for (int from = 0; from < W; from += FOUR) {
+    for (int i = 0; i < FOUR; i++) part[i] = v[from + i];
     sum += (part[0] + part[1]) + (part[2] + part[3]);
   }
   return sum;

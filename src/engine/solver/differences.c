@@ -206,9 +206,10 @@ static void add_level(tableau *t, double slope) {
   double base = t->of_one_side ? ratio : ratio * ratio, power = base;
   t->entry[k][0] = slope;
   if (k == 0) t->best = slope;
-  for (int j = 1; j <= k; j++, power *= base) {
+  for (int j = 1; j <= k; j++) {
     double left = t->entry[k][j - 1], above = t->entry[k - 1][j - 1];
     t->entry[k][j] = left + (left - above) / (power - 1.0);
+    power *= base;
     double error = fmax(fabs(t->entry[k][j] - left), fabs(t->entry[k][j] - above));
     if (!(error <= t->error)) continue;
     t->error = error;
@@ -242,7 +243,8 @@ static ambulo_status differ(stationary *s, ambulo__parameter *n, int *found) {
   ambulo_status status = AMBULO_OK;
   if (n->enters != AMBULO__ENTERS_ALL) status = look(s, n, n->value, &s->here);
   *found = 0;
-  for (int k = 0; k < LEVELS && !status; k++, h /= ratio) {
+  for (int k = 0; k < LEVELS && !status; k++) {
+    if (k > 0) h /= ratio;
     status = look(s, n, n->value - h, &s->low);
     if (!status) status = look(s, n, n->value + h, &s->high);
     int low = s->low.kind == SIDE_THERE, high = s->high.kind == SIDE_THERE, one_side = low != high;

@@ -66,8 +66,11 @@ static int limits_moved(const ambulo__variant *v) {
 }
 
 static int body_moved(const ambulo__variant *v) {
-  ambulo__body_numbers before = body_of(v->origin->model);
-  return memcmp(&before, &v->body, sizeof before) != 0;
+  const ambulo__body_numbers before = body_of(v->origin->model), *now = &v->body;
+  int moved =
+      now->mass != before.mass || now->stature != before.stature || now->slope != before.slope;
+  for (int i = 0; i < v->origin->model->load_count; i++) moved |= now->load[i] != before.load[i];
+  return moved;
 }
 
 static void change(const ambulo__variant *v, ambulo_model *m) {
@@ -101,6 +104,10 @@ static void weigh(const ambulo__variant *v, ambulo_problem_definition *d, double
   }
 }
 
+static int is_at(const double *one, const double *other) {
+  return one[0] == other[0] && one[1] == other[1] && one[2] == other[2];
+}
+
 /* ends of devices that are points of the model stay them */
 static void follow_points(const ambulo__variant *v, ambulo_problem_definition *d) {
   const ambulo_model *m = v->origin->model;
@@ -109,8 +116,7 @@ static void follow_points(const ambulo__variant *v, ambulo_problem_definition *d
     ambulo_device *device = &devices[end / 2];
     double *place = device->position[end % 2];
     for (int i = 0; i < m->point_count && device->coordinate < 0; i++)
-      if (m->points[i].link == device->link[end % 2] &&
-          memcmp(m->points[i].position, place, 3 * sizeof *place) == 0)
+      if (m->points[i].link == device->link[end % 2] && is_at(m->points[i].position, place))
         memcpy(place, d->model->points[i].position, 3 * sizeof *place);
   }
 }
@@ -146,6 +152,7 @@ static ambulo_status make(const ambulo__variant *v, const ambulo_problem_definit
   const ambulo__body_numbers before = body_of(v->origin->model);
   ambulo_problem_definition own = *definition, *d = &own; /* with other contacts, maybe */
   int moved = body_moved(v);
+  /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): a copy, NaNs where nothing is given */
   int walks = keys->gait && (moved || memcmp(&v->rule, &keys->rule, sizeof v->rule) != 0);
   double longer = before.stature > 0.0 ? v->body.stature / before.stature : 1.0;
   double heavier = before.mass > 0.0 ? v->body.mass / before.mass : 1.0;
