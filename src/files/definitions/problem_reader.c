@@ -136,7 +136,9 @@ static double read_bound(const ambulo__yaml_node *node, const ambulo__member *m,
 static void read_row(const ambulo__yaml_node *node, const ambulo__member *m, double *values) {
   double read[8] = {0.0};
   const char *unit = ambulo__quantity_unit(m->quantity), *blank = unit[0] ? " " : "";
-  if (!node || m->count > 8 || !ambulo__yaml_numbers(node, m->count, read)) return;
+  if (!node || m->count > 8) return;
+  memcpy(read, values, (size_t)m->count * sizeof *values);
+  if (!ambulo__yaml_numbers_over(node, m->count, read)) return;
   for (int k = 0; k < m->count; k++) {
     if (read[k] >= m->low && read[k] <= m->high) continue;
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%g; expected %g to %g", read[k], m->low,

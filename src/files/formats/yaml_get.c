@@ -295,9 +295,10 @@ const char *ambulo__yaml_file_name(const ambulo__yaml_node *node) {
   return "";
 }
 
-int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values) {
+/* `keeps`: items that a path left out keep their values */
+static int read_numbers(const ambulo__yaml_node *node, int count, int keeps, double *values) {
   if (!node) return 0;
-  if (node->kind != AMBULO__YAML_SEQUENCE || node->count != count) {
+  if (node->kind != AMBULO__YAML_SEQUENCE || (keeps ? node->count > count : node->count != count)) {
     char expected[MAX_GOT];
     (void)snprintf(expected, sizeof expected, "a sequence of %d numbers", count);
     mismatch(node, NULL, expected);
@@ -305,7 +306,21 @@ int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *value
   }
   int good = 1;
   double value;
-  for (int i = 0; i < count; i++) good &= read_number(node->items[i], &value);
-  for (int i = 0; good && i < count; i++) (void)read_number(node->items[i], &values[i]);
+  for (int pass = 0; pass < 2 && good; pass++) {
+    for (int i = 0; i < node->count; i++) {
+      const ambulo__yaml_node *item = node->items[i];
+      if (keeps && is_plain(item) && strcmp(item->text, "~") == 0) continue;
+      good &= read_number(item, &value);
+      if (pass) values[i] = value;
+    }
+  }
   return good;
+}
+
+int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values) {
+  return read_numbers(node, count, 0, values);
+}
+
+int ambulo__yaml_numbers_over(const ambulo__yaml_node *node, int count, double *values) {
+  return read_numbers(node, count, node && node->grown, values);
 }

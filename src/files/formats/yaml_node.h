@@ -48,8 +48,9 @@ void ambulo__yaml_free(ambulo__yaml *document); /* accepts NULL */
 /* Replaces or adds the scalar at a dotted path ("time.intervals",
  * "objective[0].weight", "links[shank_r].body.mass": items by number, `name` or `term`) by a
  * YAML flow text ("36", "[1, 2]", "off"): what `--set path=value` does. The texts null and ~ take a
- * key or an item away; what follows it moves up. Errors: E_SCHEMA (no such parent, nothing to take
- * away), E_PARSE, E_MEMORY. */
+ * key or an item away; what follows it moves up. Below the first key, mappings and rows of numbers
+ * that are missing on the way are made (yaml_set.c). Errors: E_SCHEMA (no such parent, nothing to
+ * take away), E_PARSE, E_MEMORY. */
 ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const char *value);
 /* The same for a document that another one names under `above` ("model."), which messages put
  * before the path. */
@@ -123,5 +124,7 @@ const char *ambulo__yaml_file_name(const ambulo__yaml_node *node);
 /* A sequence of exactly `count` numbers into values[]; 1 on success. A NULL node
  * leaves values[] as they are and returns 0. */
 int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values);
+/* The same where values[] has what stands by default: items that a path left out keep it. */
+int ambulo__yaml_numbers_over(const ambulo__yaml_node *node, int count, double *values);
 
 #endif

@@ -1,5 +1,15 @@
 /* formats/yaml_set.c - replacing values by path, as `--set time.intervals=36` does, and leaving
- * keys and items out, as `--set gait.speed=null` does. */
+ * keys and items out, as `--set gait.speed=null` does.
+ *
+ * A path may lead to what a file leaves at its default. Below the first key, what is missing on the
+ * way is made, so that the number at its end is the only one that changes:
+ *
+ *     a missing key                        an empty mapping, or a sequence where [k] follows
+ *     a missing item of a row of numbers   the row with '~' in front of it: those keep their values
+ *     one word for all, `pressure: on`     an empty mapping
+ *     one number for all, `scale: 2`       {default: 2}
+ *
+ * A key that no reader asks for is refused by it, with the nearest name, as one in a file is. */
 #include "formats/yaml_tree.h"
 
 #include "base/numtext.h"
@@ -96,31 +106,7 @@ static int next_step(const char **cursor, int first, step *out) {
   return out->length > 0;
 }
 
-/* the child that a step leads to; *key_copy gets the key, so that it can be added */
-static ambulo_status follow(ambulo__yaml *document, const char *file, ambulo__yaml_node *parent,
-                            step where, ambulo__yaml_node **child, char **key_copy) {
-  *child = NULL;
-  *key_copy = NULL;
-  if (where.kind == INDEX) {
-    if (parent->kind != AMBULO__YAML_SEQUENCE || where.index >= parent->count)
-      return no_item(document, file, parent, where.index);
-    *child = parent->items[where.index];
-    return AMBULO_OK;
-  }
-  char *word = ambulo__arena_copy(&document->arena, where.word, where.length);
-  if (!word) return ambulo__io_memory_error(document->diagnostics, file);
-  if (where.kind == NAME) {
-    *child = named_item(parent, word);
-    return *child ? AMBULO_OK : no_name(document, file, parent, word);
-  }
-  if (parent->kind != AMBULO__YAML_MAPPING)
-    return bad_path(document, file, "the path goes through a value that is no mapping");
-  *key_copy = word;
-  *child = ambulo__yaml_find(parent, *key_copy);
-  return AMBULO_OK;
-}
-
-/* makes room for one more child of a mapping */
+/* makes room for one more child, of a mapping under a key (a sequence has none) */
 static ambulo_status append(ambulo__yaml *document, const char *file, ambulo__yaml_node *parent,
                             ambulo__yaml_node *value, const char *key) {
   if (parent->count >= AMBULO__YAML_MAX_KEYS)
@@ -131,7 +117,7 @@ static ambulo_status append(ambulo__yaml *document, const char *file, ambulo__ya
   if (!items || !text) return ambulo__io_memory_error(document->diagnostics, file);
   if (count > 0) memcpy(items, parent->items, count * sizeof *items);
   text->text = key;
-  value->key = text;
+  value->key = key ? text : NULL;
   value->index = parent->count++;
   items[count] = value;
   parent->items = items;
@@ -146,6 +132,96 @@ static ambulo_status put(ambulo__yaml *document, const char *file, ambulo__yaml_
   value->index = old->index;
   parent->items[old->index] = value;
   return AMBULO_OK;
+}
+
+/* ----------------------------------------------------------------- what is missing */
+
+enum { LONGEST_ROW = 8 }; /* of numbers, that an index may lengthen */
+
+/* What a path goes through: all of it may be made below the first key, unless it takes away. */
+typedef struct walk {
+  ambulo__yaml *document;
+  const char *file; /* in messages */
+  int makes;
+  int depth;
+} walk;
+
+/* flow text in place of `old`, or as a new child of `parent` under a key */
+static ambulo_status put_text(const walk *w, ambulo__yaml_node *parent, ambulo__yaml_node *old,
+                              const char *key, const char *text, ambulo__yaml_node **made) {
+  ambulo_status status =
+      ambulo__yaml_parse(w->document, text, strlen(text), w->file, w->depth, made);
+  return status ? status : put(w->document, w->file, parent, old, key, *made);
+}
+
+static int is_row_of_numbers(const ambulo__yaml_node *node) {
+  if (node->kind != AMBULO__YAML_SEQUENCE || node->count >= LONGEST_ROW) return 0;
+  for (int i = 0; i < node->count; i++)
+    if (node->items[i]->kind != AMBULO__YAML_SCALAR) return 0;
+  return node->grown || node->count > 0;
+}
+
+/* '~' up to an index: items that keep their values */
+static ambulo_status lengthen(const walk *w, ambulo__yaml_node *row, int index) {
+  ambulo_status status = AMBULO_OK;
+  ambulo__yaml_node *made;
+  row->grown = 1;
+  while (row->count <= index && !status) status = put_text(w, row, NULL, NULL, "~", &made);
+  return status;
+}
+
+/* the mapping that one word or number for all stands for; *node stays where there is none */
+static ambulo_status write_out(const walk *w, ambulo__yaml_node **node) {
+  ambulo__yaml_node *scalar = *node;
+  if (!w->makes || scalar->kind != AMBULO__YAML_SCALAR || !scalar->parent) return AMBULO_OK;
+  if (strcmp(scalar->text, "on") == 0) return put_text(w, scalar->parent, scalar, NULL, "{}", node);
+  double number;
+  if (!scalar->key || strcmp(scalar->key->text, "scale") != 0 ||
+      !ambulo__parse_double(scalar->text, strlen(scalar->text), &number))
+    return AMBULO_OK;
+  ambulo_status status = put_text(w, scalar->parent, scalar, NULL, "{}", node);
+  return status ? status : put(w->document, w->file, *node, NULL, "default", scalar);
+}
+
+/* ------------------------------------------------------------------------ the walk */
+
+/* the child that a step leads to; *key_copy gets the key, so that it can be added */
+static ambulo_status follow(const walk *w, ambulo__yaml_node **parent, step where,
+                            ambulo__yaml_node **child, char **key_copy) {
+  *child = NULL;
+  *key_copy = NULL;
+  if (where.kind == INDEX) {
+    if (w->makes && where.index >= (*parent)->count && where.index < LONGEST_ROW &&
+        is_row_of_numbers(*parent)) {
+      ambulo_status status = lengthen(w, *parent, where.index);
+      if (status) return status;
+    }
+    if ((*parent)->kind != AMBULO__YAML_SEQUENCE || where.index >= (*parent)->count)
+      return no_item(w->document, w->file, *parent, where.index);
+    *child = (*parent)->items[where.index];
+    return AMBULO_OK;
+  }
+  char *word = ambulo__arena_copy(&w->document->arena, where.word, where.length);
+  if (!word) return ambulo__io_memory_error(w->document->diagnostics, w->file);
+  if (where.kind == NAME) {
+    *child = named_item(*parent, word);
+    return *child ? AMBULO_OK : no_name(w->document, w->file, *parent, word);
+  }
+  ambulo_status status = write_out(w, parent);
+  if (status) return status;
+  if ((*parent)->kind != AMBULO__YAML_MAPPING)
+    return bad_path(w->document, w->file, "the path goes through a value that is no mapping");
+  *key_copy = word;
+  *child = ambulo__yaml_find(*parent, *key_copy);
+  return AMBULO_OK;
+}
+
+/* a text that will take away */
+static int is_null(const char *text) {
+  size_t start = strspn(text, " "), length = strcspn(text + start, " ");
+  return text[start + length + strspn(text + start + length, " ")] == '\0' &&
+         ((length == 4 && strncmp(text + start, "null", 4) == 0) ||
+          (length == 1 && text[start] == '~'));
 }
 
 /* null and ~ without quotes take away what the path leads to */
@@ -163,21 +239,26 @@ static void take_away(ambulo__yaml_node *parent, const ambulo__yaml_node *old) {
 }
 
 /* walks to the last step of `path`; *parent is what holds it, *old its value or NULL */
-static ambulo_status locate(ambulo__yaml *document, const char *file, const char *path,
-                            ambulo__yaml_node **parent, ambulo__yaml_node **old, char **key,
-                            int *depth) {
-  ambulo__yaml_node *node = document->root;
+static ambulo_status locate(walk *w, const char *path, ambulo__yaml_node **parent,
+                            ambulo__yaml_node **old, char **key) {
+  ambulo__yaml_node *node = w->document->root;
   const char *cursor = path;
-  *depth = 0;
+  w->depth = 0;
   do {
     step where;
-    if (!node && *parent) return no_key(document, file, *parent, *key);
-    if (!node) return bad_path(document, file, "the document is empty");
+    if (!node && !*parent) return bad_path(w->document, w->file, "the document is empty");
+    if (!node && (!w->makes || w->depth < 2)) return no_key(w->document, w->file, *parent, *key);
+    const char *before = cursor;
     if (!next_step(&cursor, cursor == path, &where))
-      return bad_path(document, file, "the path is not well-formed");
+      return bad_path(w->document, w->file, "the path is not well-formed");
+    if (!node) {
+      ambulo_status made = put_text(w, *parent, NULL, *key, *before == '[' ? "[]" : "{}", &node);
+      if (made) return made;
+      node->grown = 1;
+    }
     *parent = node;
-    ++*depth;
-    ambulo_status status = follow(document, file, node, where, old, key);
+    ++w->depth;
+    ambulo_status status = follow(w, parent, where, old, key);
     if (status != AMBULO_OK) return status;
     node = *old;
   } while (*cursor);
@@ -187,8 +268,8 @@ static ambulo_status locate(ambulo__yaml *document, const char *file, const char
 const ambulo__yaml_node *ambulo__yaml_at(ambulo__yaml *document, const char *path) {
   ambulo__yaml_node *parent = NULL, *found = NULL;
   char *key = NULL;
-  int depth = 0;
-  if (locate(document, NULL, path, &parent, &found, &key, &depth)) return NULL;
+  walk w = {.document = document};
+  if (locate(&w, path, &parent, &found, &key)) return NULL;
   if (!found) (void)no_key(document, NULL, parent, key);
   return found;
 }
@@ -201,10 +282,10 @@ ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, 
   (void)snprintf(file, size, "--set %s%s", above, path);
   ambulo__yaml_node *parent = NULL, *old = NULL, *made = NULL;
   char *key = NULL;
-  int depth = 0;
-  ambulo_status status = locate(document, file, path, &parent, &old, &key, &depth);
+  walk w = {.document = document, .file = file, .makes = !is_null(value)};
+  ambulo_status status = locate(&w, path, &parent, &old, &key);
   if (status != AMBULO_OK) return status;
-  status = ambulo__yaml_parse(document, value, strlen(value), file, depth, &made);
+  status = ambulo__yaml_parse(document, value, strlen(value), file, w.depth, &made);
   if (status != AMBULO_OK) return status;
   if (!made) {
     ambulo__place place = {file, 0, 0, NULL};

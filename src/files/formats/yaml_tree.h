@@ -32,6 +32,8 @@ struct ambulo__yaml_node {
   ambulo__yaml_kind kind;
   int quoted;                             /* scalar in quotes or a block scalar: never a number */
   int line, column;                       /* 1-based; 0: set by ambulo__yaml_set() */
+  int grown;                              /* by a path: a row of numbers may be shorter, and have
+                                             '~' for those that keep their values */
   int index;                              /* among the children of the parent */
   int count;                              /* children */
   const char *file;                       /* where it was read from */
