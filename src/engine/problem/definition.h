@@ -13,6 +13,14 @@
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *definition,
                                        ambulo_diagnostics *diagnostics);
 
+/* What the numbers of a term and one coordinate, which turns or slides, are multiplied by for a
+ * body of another size (definition_values.c): peak is that of passive torques and strengths. */
+typedef struct ambulo__term_sizes {
+  double weight, scale, offset, tendon, peak;
+} ambulo__term_sizes;
+ambulo__term_sizes ambulo__term_sizes_of(const ambulo_term *term, int turns, double longer,
+                                         double heavier);
+
 /* Deep copy (the model, callbacks and names of obstacles stay shared); strength that is limits gets
  * its curves. E_MEMORY leaves a half copy that ambulo__definition_free accepts. */
 ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,

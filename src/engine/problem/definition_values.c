@@ -260,7 +260,6 @@ static void resize_members(const ambulo__structure *structure, double longer, vo
   }
 }
 
-/* what one coordinate's scale and offset are multiplied by */
 typedef struct factors {
   double scale, offset;
 } factors;
@@ -285,6 +284,17 @@ static factors factors_of(const ambulo_term *term, int turns, double longer, dou
   return (factors){1.0, 1.0};
 }
 
+ambulo__term_sizes ambulo__term_sizes_of(const ambulo_term *term, int turns, double longer,
+                                         double heavier) {
+  factors by = factors_of(term, turns, longer, heavier);
+  return (ambulo__term_sizes){
+      .weight = ambulo__term_info_of(term->kind)->weight_is_length ? longer : 1.0,
+      .scale = by.scale,
+      .offset = by.offset,
+      .tendon = turns ? heavier * longer : heavier / longer,
+      .peak = heavier * longer};
+}
+
 /* what a const view of an array of the caller's own shows */
 static double *own(const double *array) {
   union {
@@ -302,16 +312,17 @@ static void resize_peaks(const double *peaks, int count, int stride, double fact
 static void resize_term(ambulo_term *term, const ambulo_model *model, double longer,
                         double heavier) {
   int count = ambulo_model_coordinate_count(model);
+  ambulo__term_sizes by = ambulo__term_sizes_of(term, 0, longer, heavier);
   for (int i = 0; i < count; i++) {
     int turns = ambulo_model_coordinate(model, i)->type == AMBULO_REVOLUTE;
-    factors by = factors_of(term, turns, longer, heavier);
+    by = ambulo__term_sizes_of(term, turns, longer, heavier);
     if (term->scale) own(term->scale)[i] *= by.scale;
     if (term->offset) own(term->offset)[i] *= by.offset;
-    if (term->tendon) own(term->tendon)[i] *= turns ? heavier * longer : heavier / longer;
+    if (term->tendon) own(term->tendon)[i] *= by.tendon;
   }
-  resize_peaks(term->passive, 2 * count, 2, heavier * longer);
-  resize_peaks(term->strength, 2 * count, 3, heavier * longer);
-  if (ambulo__term_info_of(term->kind)->weight_is_length) term->weight *= longer;
+  resize_peaks(term->passive, 2 * count, 2, by.peak);
+  resize_peaks(term->strength, 2 * count, 3, by.peak);
+  term->weight *= by.weight;
   resize_members(&ambulo__term_members, longer, term); /* height */
 }
 

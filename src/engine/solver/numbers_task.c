@@ -3,6 +3,7 @@
 #include "solver/sensitivity.h"
 
 #include "contact/row_families.h"
+#include "problem/definition.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,9 +43,16 @@ static int partner_of(const term_keys *t, int i, double *sign) {
 typedef struct entry {
   const double *array;
   int stride, own, other;
-  double sign;
+  double sign, size;
   const char *what, *key;
 } entry;
+
+/* what they are multiplied by for another body */
+static ambulo__term_sizes sizes_of(const term_keys *t, int i) {
+  const ambulo__problem_keys *keys = &t->p->problem->keys;
+  int turns = t->p->problem->model->coordinates[i].type == AMBULO_REVOLUTE;
+  return ambulo__term_sizes_of(t->term, turns, keys->longer, keys->heavier);
+}
 
 static void add_entry(const term_keys *t, int i, ambulo__quantity quantity, const entry *e) {
   const ambulo_model *model = t->p->problem->model;
@@ -60,6 +68,7 @@ static void add_entry(const term_keys *t, int i, ambulo__quantity quantity, cons
   ambulo__parameter_add(t->p, quantity, &array[e->stride * i + e->own], label,
                         "objective[%s].%s.%s%s", t->item, e->key, model->coordinates[i].name,
                         index[0]);
+  ambulo__parameter_sized(t->p, e->size);
   if (pair)
     ambulo__parameter_with(t->p, e->sign, &array[e->stride * m + e->other], "objective[%s].%s.%s%s",
                            t->item, e->key, model->coordinates[m].name, index[1]);
@@ -72,8 +81,12 @@ static void add_offset(const term_keys *t, int i) {
   int turns = t->p->problem->model->coordinates[i].type == AMBULO_REVOLUTE;
   ambulo__quantity quantity = rests ? (turns ? AMBULO__ANGLE : AMBULO__STEP_LENGTH)
                                     : (turns ? AMBULO__TORQUE : AMBULO__FORCE);
-  const entry e = {
-      t->term->offset, 1, 0, 0, sign, rests ? "rest" : "offset", rests ? "angles" : "offset"};
+  const entry e = {.array = t->term->offset,
+                   .stride = 1,
+                   .sign = sign,
+                   .size = sizes_of(t, i).offset,
+                   .what = rests ? "rest" : "offset",
+                   .key = rests ? "angles" : "offset"};
   if (!t->term->offset || m == i || (!rests && value == 0.0)) return;
   add_entry(t, i, quantity, &e);
 }
@@ -93,6 +106,7 @@ static void add_strength(const term_keys *t, int i) {
                        3 * down + k,
                        3 * other + k,
                        sign < 0.0 && k == 2 ? -1.0 : 1.0,
+                       k == 0 ? sizes_of(t, i).peak : 1.0,
                        k == 0   ? words[down]
                        : k == 1 ? "breadth of strength"
                                 : "angle of strength",
@@ -107,7 +121,8 @@ static void add_passive(const term_keys *t, int i) {
   double sign;
   int m = partner_of(t, i, &sign);
   for (int k = 0; k < 4 && m != i; k++) {
-    const entry e = {t->term->passive, 4, k, k, sign, "passive torque", "passive"};
+    double size = k % 2 == 0 ? sizes_of(t, i).peak : 1.0;
+    const entry e = {t->term->passive, 4, k, k, sign, size, "passive torque", "passive"};
     if (t->term->passive[4 * i + k] != 0.0) add_entry(t, i, AMBULO__RATIO, &e);
   }
 }
@@ -117,7 +132,7 @@ static void add_prices(const term_keys *t, int i) {
   double sign;
   int m = partner_of(t, i, &sign);
   for (int up = 0; up < 2; up++) {
-    const entry e = {t->term->price, 2, up, sign < 0.0 ? !up : up, 1.0, words[up], "scale"};
+    const entry e = {t->term->price, 2, up, sign < 0.0 ? !up : up, 1.0, 1.0, words[up], "scale"};
     if (m != i || !up) add_entry(t, i, AMBULO__RATIO, &e);
   }
 }
@@ -131,8 +146,10 @@ static void add_coordinate(const term_keys *t, int i) {
   double sign;
   int m = partner_of(t, i, &sign);
   const ambulo_term *term = t->term;
-  const entry scale = {term->scale, 1, 0, 0, 1.0, "scale", "scale"};
-  const entry tendon = {term->tendon, 1, 0, 0, 1.0, "stiffness of the tendon", "tendon"};
+  const ambulo__term_sizes sizes = sizes_of(t, i);
+  const entry scale = {term->scale, 1, 0, 0, 1.0, sizes.scale, "scale", "scale"};
+  const entry tendon = {term->tendon, 1, 0, 0, 1.0, sizes.tendon, "stiffness of the tendon",
+                        "tendon"};
   if (ambulo__term_scale(term, i) == 0.0 || (m >= 0 && m < i)) return; /* or said before */
   if (has_prices(t, i))
     add_prices(t, i);
@@ -151,11 +168,21 @@ static int is_of_another_kind(const ambulo__parameters *p, const void *term,
   return m->of_kinds && !ambulo__term_has(term, m->of_kinds);
 }
 
+/* of the term's own numbers, which are those from `first` on */
+static void set_size_of_weight(const term_keys *t, int first) {
+  double *weight = &t->term->weight;
+  for (int i = first; i < t->p->count && t->p->problem->keys.written_for; i++)
+    if (t->p->address[t->p->list[i].address].at == weight)
+      t->p->list[i].size = sizes_of(t, 0).weight;
+}
+
 static void add_term(const term_keys *t) {
   char path[ITEM_TEXT + 12];
+  int first = t->p->count;
   (void)snprintf(path, sizeof path, "objective[%s]", t->item);
   ambulo__parameters_of_members(t->p, &ambulo__term_members, t->term, path, t->name,
                                 is_of_another_kind);
+  set_size_of_weight(t, first);
   if (ambulo__term_info_of(t->term->kind)->subject == AMBULO__TERM_OF_OTHERS) return;
   for (int i = 0; i < t->p->problem->coordinates; i++) add_coordinate(t, i);
 }

@@ -113,7 +113,7 @@ static void add_width(ambulo__parameters *p) {
   ambulo__parameter_within(p, 0.0, 10.0);
   if (p->failed) return;
   p->list[p->count - 1].value = width;
-  p->list[p->count - 1].is_length = 1;
+  ambulo__parameter_sized(p, p->problem->keys.longer);
 }
 
 static void add_phases(ambulo__parameters *p) {

@@ -237,6 +237,7 @@ void ambulo__parameter_add(ambulo__parameters *p, ambulo__quantity quantity, dou
   *next = p->next;
   next->quantity = quantity;
   next->value = *at;
+  next->size = 1.0;
   next->low = -HUGE_VAL;
   next->high = HUGE_VAL;
   next->address = p->addresses;
@@ -262,6 +263,10 @@ void ambulo__parameter_with(ambulo__parameters *p, double sign, double *at, cons
     p->count--;
   else
     ambulo__parameter_place(p, sign, at);
+}
+
+void ambulo__parameter_sized(ambulo__parameters *p, double size) {
+  if (!p->failed && p->problem->keys.written_for) p->list[p->count - 1].size = size;
 }
 
 void ambulo__parameter_within(ambulo__parameters *p, double low, double high) {
@@ -291,11 +296,11 @@ void ambulo__parameters_of_members(ambulo__parameters *p, const ambulo__structur
       if (m->count > 1) (void)snprintf(index, sizeof index, "[%d]", k);
       ambulo__parameter_add(p, m->quantity, &at[k], label, "%s%s%s%s", path, path[0] ? "." : "",
                             m->key, m->count > 1 ? index : "");
-      double size = m->flags & AMBULO__BODY_LENGTH && p->problem->keys.written_for
-                        ? p->problem->keys.longer
-                        : 1.0;
+      int is_length = (m->flags & AMBULO__BODY_LENGTH) != 0;
+      double longer = p->problem->keys.written_for ? p->problem->keys.longer : 1.0;
+      double size = is_length ? longer : 1.0;
       if (m->low < m->high) ambulo__parameter_within(p, m->low * size, m->high * size);
-      if (!p->failed) p->list[p->count - 1].is_length = (m->flags & AMBULO__BODY_LENGTH) != 0;
+      ambulo__parameter_sized(p, m->quantity == AMBULO__LOADING_RATE ? 1.0 / sqrt(longer) : size);
     }
   }
 }
@@ -330,20 +335,13 @@ void ambulo__parameter_set(ambulo__parameters *p, const ambulo__parameter *param
 
 /* ---------------------------------------------------------------------- units */
 
-/* what a file's number is multiplied by where it is written for another body; 0: not known */
-static double size_of(const ambulo__problem_keys *keys, const ambulo__parameter *p) {
-  if (!keys->written_for) return 1.0;
-  if (strncmp(p->name, "objective[", 10) == 0) return 0.0;
-  if (p->quantity == AMBULO__LOADING_RATE) return 1.0 / sqrt(keys->longer);
-  return p->is_length ? keys->longer : 1.0;
-}
-
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *p) {
   const ambulo__model_units *units = &problem->model->units;
   int of_model = strncmp(p->name, "model.", 6) == 0;
   int turns = p->quantity == AMBULO__ANGLE || p->quantity == AMBULO__TURNING_SPEED ||
               p->quantity == AMBULO__TURNING_JOLT;
-  if (!of_model) return size_of(&problem->keys, p) * (turns ? problem->keys.radians : 1.0);
+  if (!problem->keys.file) return 1.0;
+  if (!of_model) return p->size * (turns ? problem->keys.radians : 1.0);
   if (turns) return units->angle;
   if (p->quantity == AMBULO__TORQUE) return units->moment;
   return p->quantity == AMBULO__FORCE ? units->force : units->length;

@@ -90,7 +90,7 @@ typedef struct ambulo__parameter {
   double share;                   /* of f*, by one step; NaN where f* is not positive */
   int order;                      /* before sorting */
   double low, high;               /* what a file may say, SI, rad */
-  int is_length;          /* as large as the body is long, where a file is written for one */
+  double size; /* what a file's number is multiplied by where it is written for another body */
   int address, addresses; /* first of the list's, and how many */
   ambulo__enters enters;
   int term;         /* of AMBULO__ENTERS_TERM */
@@ -126,6 +126,8 @@ void ambulo__parameter_add(ambulo__parameters *parameters, ambulo__quantity quan
 void ambulo__parameter_place(ambulo__parameters *parameters, double sign, double *at);
 void ambulo__parameter_with(ambulo__parameters *parameters, double sign, double *at,
                             const char *name, ...);
+/* ... is `size` times a file's number, where that is written for another body. */
+void ambulo__parameter_sized(ambulo__parameters *parameters, double size);
 /* ... stays within, in a file. */
 void ambulo__parameter_within(ambulo__parameters *parameters, double low, double high);
 /* The label of number k of a member, and of what. */
@@ -143,7 +145,8 @@ void ambulo__parameters_of_members(ambulo__parameters *parameters,
 /* With mirrored ends left and right have to stay alike: the coordinate whose numbers move together
  * with those of i (i itself, if it is its own image turned round), *sign times; -1: none has to. */
 int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign);
-/* SI and rad per unit that the problem's file has for it; 0: its unit of angle is not stated. */
+/* SI and rad per unit that the problem's file has for it, 1 of a problem made from C; 0: an angle,
+ * and the file does not state its unit. */
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
 
 /* The pieces: gait, contacts, duration, travel; body, its limits, devices, what hands hold; terms,

@@ -104,7 +104,7 @@ static void read_item(gathered *g, const char *name, const ambulo__yaml_node *no
   }
   if (!ambulo__yaml_numbers(node, 2, bound)) return;
   double unit = ambulo__parameter_unit(g->problem, p);
-  if (unit == 0.0 && strncmp(name, "objective[", 10) == 0) {
+  if (g->problem->keys.written_for && strncmp(name, "objective[", 10) == 0) {
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                              "'%s' cannot be free in a file that is written for another body; "
                              "expected a number of the walk, the ground or the constraints",
