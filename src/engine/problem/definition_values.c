@@ -287,12 +287,12 @@ static factors factors_of(const ambulo_term *term, int turns, double longer, dou
 ambulo__term_sizes ambulo__term_sizes_of(const ambulo_term *term, int turns, double longer,
                                          double heavier) {
   factors by = factors_of(term, turns, longer, heavier);
-  return (ambulo__term_sizes){
-      .weight = ambulo__term_info_of(term->kind)->weight_is_length ? longer : 1.0,
-      .scale = by.scale,
-      .offset = by.offset,
-      .tendon = turns ? heavier * longer : heavier / longer,
-      .peak = heavier * longer};
+  return (ambulo__term_sizes){.weight =
+                                  ambulo__term_info_of(term->kind)->weight_is_length ? longer : 1.0,
+                              .scale = by.scale,
+                              .offset = by.offset,
+                              .tendon = turns ? heavier * longer : heavier / longer,
+                              .peak = heavier * longer};
 }
 
 /* what a const view of an array of the caller's own shows */
