@@ -22,7 +22,9 @@ extern "C" {
   X(AMBULO_NUMERIC_FAILURE, "numeric_failure",                                                     \
     "a value or a derivative is not finite, or no matrix could be factored")                       \
   X(AMBULO_LIMIT_REACHED, "limit", "stopped by a limit, not feasible")                             \
-  X(AMBULO_INTERRUPTED, "interrupted", "stopped by the caller; the best point so far")
+  X(AMBULO_INTERRUPTED, "interrupted", "stopped by the caller; the best point so far")             \
+  X(AMBULO_NOT_CONVERGED, "not_converged",                                                         \
+    "some row is violated, and nothing shows that it has to be")
 
 typedef enum ambulo_verdict {
 #define AMBULO_VERDICT_ENUM(id, name, text) id,
@@ -259,6 +261,9 @@ typedef struct ambulo_explanation {
    * made from C, nor where no key says it */
   const char *const *settings;
   int setting_count;
+  int confirmed; /* 1: the rows contradict each other: equalities do, or the sum of all squared
+                    violations has a minimum that is clearly not zero (a row is off by more than
+                    1e-3 of its size). Only then is a solved problem called infeasible */
 } ambulo_explanation;
 
 /* Memory in bytes, predicted from sizes; within a factor of two for walks. */

@@ -181,6 +181,7 @@ static void explanation(ambulo__json *json, const ambulo_result *result) {
   if (!e) return;
   ambulo__json_open(json, "explanation", '{');
   ambulo__json_integer(json, "complete", e->complete);
+  ambulo__json_integer(json, "confirmed", e->confirmed);
   ambulo__json_integer(json, "feasible_point", e->feasible_point);
   ambulo__json_text(json, "suggestion", e->suggestion);
   ambulo__json_open(json, "settings", '[');

@@ -291,6 +291,33 @@ static void a_missed_solution_is_named(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* a solve that a cap ended is told to raise the cap, whatever its point violates; as it stands the
+ * suggestion can be set */
+static void a_cap_is_to_be_raised(void **state) {
+  (void)state;
+  static const char *const caps[][2] = {
+      {"solver.maximum_iterations=1", "solver.maximum_iterations=150"},
+      {"solver.maximum_evaluations=70", "solver.maximum_evaluations=20000"},
+      {"solver.time_limit=0.01", "solver.time_limit=0.02"}};
+  static const char *const names[] = {"step_too_long", "support_too_narrow"};
+  for (int k = 0; k < 6; k++) {
+    ambulo_problem *problem = NULL;
+    char path[160];
+    (void)snprintf(path, sizeof path, "tests/infeasible/%s.yaml", names[k % 2]);
+    assert_int_equal(ambulo_problem_load(path, caps[k / 2], 1, NULL, NULL, &problem), AMBULO_OK);
+    ambulo_options options = ambulo_problem_options(problem);
+    ambulo_result *result = solve(problem, &options);
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_LIMIT_REACHED);
+    const ambulo_explanation *e = ambulo_result_explanation(result);
+    assert_non_null(strstr(e->suggestion, "raise the cap"));
+    assert_int_equal(e->setting_count, 1);
+    assert_string_equal(e->settings[0], caps[k / 2][1]);
+    for (int i = 0; i < e->conflict_count; i++) assert_int_equal(e->conflicts[i].alone, -1);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+  }
+}
+
 /* rows that hold to 1e-8 of their size are not "in conflict", whatever tolerance was asked for */
 static void what_all_but_holds_is_no_conflict(void **state) {
   (void)state;
@@ -339,6 +366,7 @@ int main(void) {
       cmocka_unit_test(a_limit_of_the_mirrored_half_is_named),
       cmocka_unit_test(limits_that_the_motion_rests_on_have_the_models_numbers),
       cmocka_unit_test(good_ends_and_audits_need_no_explanation),
+      cmocka_unit_test(a_cap_is_to_be_raised),
       cmocka_unit_test(a_missed_solution_is_named),
       cmocka_unit_test(what_all_but_holds_is_no_conflict),
       cmocka_unit_test(a_spent_time_limit_is_kept)};

@@ -32,7 +32,7 @@ static told *open_told(void) {
   out->view.lines = out->line;
   out->view.suggestion = out->suggestion;
   out->view.settings = out->settings;
-  out->view.complete = 1;
+  out->view.complete = out->view.confirmed = 1;
   out->view.conflict_count = 2;
   for (int i = 0; i < 2; i++) {
     out->conflict[i].shared = violation(i ? "zmp" : "joint_limit", 0.2);
@@ -65,7 +65,7 @@ static void conflicts_are_told_by_how_they_were_found(void **state) {
                       "0.25 s\nin conflict, where every row gives way a little:\n"
                       "  joint_limit: 0.2 rad at knee upper, t = 0.25 s\n  zmp: 0.2 rad"));
   assert_false(says(t, "cut short"));
-  t->out.view.complete = 0;
+  t->out.view.complete = t->out.view.confirmed = 0;
   assert_true(says(t, "still violated, where every row gives way a little:"));
   assert_true(says(t, "cut short by the time limit: not every family could be tried"));
   assert_false(says(t, "to blame"));

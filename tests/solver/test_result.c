@@ -52,7 +52,7 @@ static void a_lower_bound_is_a_proof(void **state) {
 
 static void names_are_distinct(void **state) {
   (void)state;
-  for (int a = AMBULO_NOT_JUDGED; a <= AMBULO_INTERRUPTED; a++) {
+  for (int a = AMBULO_NOT_JUDGED; a <= AMBULO_NOT_CONVERGED; a++) {
     assert_true(strlen(ambulo_verdict_text((ambulo_verdict)a)) > 10);
     for (int b = AMBULO_NOT_JUDGED; b < a; b++)
       assert_string_not_equal(ambulo_verdict_name((ambulo_verdict)a),

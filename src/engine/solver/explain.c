@@ -125,7 +125,7 @@ static void contradictions(ambulo__explanation *out) {
 static void conflicts(ambulo__explanation *out) {
   char where[200];
   if (out->view.conflict_count == 0) return;
-  ambulo__explain_line(out, out->view.complete
+  ambulo__explain_line(out, out->view.confirmed
                                 ? "in conflict, where every row gives way a little:"
                                 : "still violated, where every row gives way a little:");
   for (int i = 0; i < out->view.conflict_count; i++) {
@@ -151,7 +151,7 @@ static void relaxations(ambulo__explanation *out) {
       ambulo__explain_line(out, "  and %s", where);
     }
   }
-  if (out->view.complete && alone == 0 && out->view.conflict_count > 0)
+  if (out->view.confirmed && out->view.complete && alone == 0 && out->view.conflict_count > 0)
     ambulo__explain_line(out, "no single family of rows is to blame: several have to give way");
 }
 
@@ -170,6 +170,20 @@ static void limits(ambulo__explanation *out) {
   }
 }
 
+/* a miss that contradicts nothing */
+static void near_miss(const ambulo_result *result, ambulo__explanation *out) {
+  double left = ambulo__relative(&result->audit.violation);
+  if (result->verdict != AMBULO_INFEASIBLE || out->view.confirmed) return;
+  if (left <= AMBULO__NEAR_MISS) {
+    ambulo__explain_line(out,
+                         "not converged: every row holds within %.2g of its size, which is near; "
+                         "no rows are known to contradict each other",
+                         left);
+  } else {
+    ambulo__explain_line(out, "not converged: no rows are known to contradict each other");
+  }
+}
+
 void ambulo__explain_lines(const ambulo_problem *problem, const ambulo_result *result,
                            ambulo__explanation *out) {
   char where[200];
@@ -178,17 +192,19 @@ void ambulo__explain_lines(const ambulo_problem *problem, const ambulo_result *r
   ambulo__explain_line(out, "worst row of the point returned: %s, %s", worst->family, where);
   ambulo__explain_task(problem, out);
   contradictions(out);
+  near_miss(result, out);
   if (out->view.feasible_point) {
     ambulo__explain_line(
         out, "a motion that satisfies every row at the nodes exists near the point returned: "
              "the solver missed it; allow more time or evaluations, or start from another motion");
-    return;
+    if (!ambulo__is_limit(result->ending_code)) return;
+  } else {
+    conflicts(out);
+    relaxations(out);
+    limits(out);
+    if (!out->view.complete)
+      ambulo__explain_line(out, "cut short by the time limit: not every family could be tried");
   }
-  conflicts(out);
-  relaxations(out);
-  limits(out);
-  if (!out->view.complete)
-    ambulo__explain_line(out, "cut short by the time limit: not every family could be tried");
   if (!out->suggestion[0]) return;
   ambulo__explain_line(out, "suggestion: %s", out->suggestion);
   for (int i = 0; i < out->view.setting_count; i++)
@@ -272,6 +288,28 @@ static int explain_residue(const ambulo_result *result, ambulo__explanation *out
   return 1;
 }
 
+/* A run that a cap ended shows nothing about the rows. */
+static void suggest_cap(const ambulo__run *run, ambulo__explanation *out) {
+  const ambulo_options *o = run->options;
+  const char *key = run->ending == AMBULO_ENDING_ITERATIONS    ? "maximum_iterations"
+                    : run->ending == AMBULO_ENDING_EVALUATIONS ? "maximum_evaluations"
+                                                               : "time_limit";
+  double cap = run->ending == AMBULO_ENDING_ITERATIONS    ? o->maximum_iterations
+               : run->ending == AMBULO_ENDING_EVALUATIONS ? o->maximum_evaluations
+                                                          : o->time_limit;
+  double least =
+      run->ending == AMBULO_ENDING_ITERATIONS    ? ambulo_options_default().maximum_iterations
+      : run->ending == AMBULO_ENDING_EVALUATIONS ? ambulo_options_default().maximum_evaluations
+                                                 : 0.0;
+  double higher = fmin(1e9, cap < least ? least : 2.0 * cap);
+  (void)snprintf(out->suggestion, sizeof out->suggestion,
+                 "raise the cap that ended the solve, solver.%s, from %.10g to %.10g or more", key,
+                 cap, higher);
+  (void)snprintf(out->setting[0], AMBULO__LINE_SIZE, "solver.%s=%.10g", key, higher);
+  out->settings[0] = out->setting[0];
+  out->view.setting_count = 1;
+}
+
 /* the point to start from: the result, or zero where that has no finite values */
 static ambulo_status start_point(const ambulo__engine *e, const ambulo_result *result, double *x) {
   memcpy(x, result->x, (size_t)e->setup->n * sizeof *x);
@@ -281,16 +319,16 @@ static ambulo_status start_point(const ambulo__engine *e, const ambulo_result *r
 }
 
 static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, ambulo__pool *pool,
-                             ambulo__explanation *out) {
+                             ambulo__explanation *out, double *x) {
   ambulo__elastic elastic;
   ambulo__remedy remedy = {.conflict = -1, .row = -1};
-  double *x = ambulo__pool_doubles(pool, (size_t)e->setup->n);
-  if (pool->failed) return AMBULO_E_MEMORY;
   if (explain_residue(result, out)) {
     ambulo__explain_lines(e->setup->problem, result, out);
     return AMBULO_OK;
   }
   list_contradictions(e, result, out);
+  out->view.confirmed = out->view.contradictory_count > 0;
+  if (ambulo__ended_by_cap(e->run)) suggest_cap(e->run, out);
   if (e->run->ending == AMBULO_ENDING_TIME || e->run->ending == AMBULO_ENDING_CALLER) {
     ambulo__explain_lines(e->setup->problem, result, out); /* no time is left to look further */
     return AMBULO_OK;
@@ -307,13 +345,14 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
     status = ambulo__relax(&elastic, e->run->options->feasibility_tolerance, x, pool, out, &remedy);
     if (status) return status;
     list_on_limits(&elastic, out);
-    ambulo__suggest(e->setup->problem, &remedy, out);
+    if (out->view.confirmed && !ambulo__ended_by_cap(run))
+      ambulo__suggest(e->setup->problem, &remedy, out);
   }
   ambulo__explain_lines(e->setup->problem, result, out);
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__explain(ambulo__engine *e, ambulo_result *result) {
+ambulo_status ambulo__explain(ambulo__engine *e, ambulo_result *result, double *nearest) {
   if (result->verdict != AMBULO_INFEASIBLE && result->verdict != AMBULO_LIMIT_REACHED)
     return AMBULO_OK;
   ambulo__pool pool;
@@ -327,7 +366,7 @@ ambulo_status ambulo__explain(ambulo__engine *e, ambulo_result *result) {
   out->view.suggestion = out->suggestion;
   out->view.settings = out->settings;
   ambulo__pool_init(&pool, &result->allocator);
-  ambulo_status status = explain(e, result, &pool, out);
+  ambulo_status status = explain(e, result, &pool, out, nearest);
   ambulo__pool_clear(&pool);
   return status;
 }

@@ -22,6 +22,10 @@ enum {
 /* Violation that counts as none, relative to the row's size, while a family gives way. */
 #define AMBULO__HOLDS 1e-4
 
+/* A row that misses by no more than this, relative to its size, is a near miss: no contradiction.
+ */
+#define AMBULO__NEAR_MISS 1e-3
+
 /* The public view and the memory it points into. */
 typedef struct ambulo__explanation {
   ambulo_explanation view;
@@ -37,9 +41,9 @@ typedef struct ambulo__explanation {
   char setting[AMBULO__MOST_SETTINGS][AMBULO__LINE_SIZE];
 } ambulo__explanation;
 
-/* Fills result->explanation for the verdicts infeasible and limit; nothing for others.
- * `engine`'s workspace is used. E_MEMORY. */
-ambulo_status ambulo__explain(ambulo__engine *engine, ambulo_result *result);
+/* Fills result->explanation for the verdicts infeasible and limit; nothing for others. nearest [n]:
+ * the least violated point, where one was looked for. `engine`'s workspace is used. E_MEMORY. */
+ambulo_status ambulo__explain(ambulo__engine *engine, ambulo_result *result, double *nearest);
 
 /* Lines about a gait that is no walk; none about one that may be. */
 void ambulo__explain_task(const ambulo_problem *problem, ambulo__explanation *out);
@@ -108,8 +112,9 @@ typedef struct ambulo__remedy {
   int single;    /* 1: only rows like this one give way there, not the rest of the family */
 } ambulo__remedy;
 
-/* relax.c: x is moved to a minimum of all violations; conflicts, feasible_point, complete are
- * filled; the workspace ends at x. E_MEMORY. */
+/* relax.c: x is moved to a minimum of all violations; conflicts, feasible_point, confirmed and
+ * complete are filled; the workspace ends at x. What families would have to give is not asked of a
+ * near miss, nor where a cap ended the run. E_MEMORY. */
 ambulo_status ambulo__relax(ambulo__elastic *elastic, double tolerance, double *x,
                             ambulo__pool *pool, ambulo__explanation *out, ambulo__remedy *remedy);
 

@@ -272,6 +272,9 @@ ambulo_status ambulo__relax(ambulo__elastic *e, double tolerance, double *x, amb
   out->view.feasible_point = worst_violation(e) <= tolerance;
   if (out->view.feasible_point) return AMBULO_OK;
   list_conflicts(e, 10.0 * tolerance, out);
+  int near = worst_violation(e) <= AMBULO__NEAR_MISS;
+  out->view.confirmed |= out->view.complete && !near;
+  if (near || ambulo__ended_by_cap(e->run)) return AMBULO_OK;
   try_families(&s, deadline, out, remedy);
   narrow(&s, deadline, out, remedy);
   for (int i = 0; i < out->view.conflict_count; i++) {

@@ -120,7 +120,7 @@ static const wording endings[] = {AMBULO_ENDING_LIST(WORDING)};
 #undef WORDING
 
 static wording wording_of_verdict(ambulo_verdict verdict) {
-  if (verdict < AMBULO_NOT_JUDGED || verdict > AMBULO_INTERRUPTED)
+  if (verdict < AMBULO_NOT_JUDGED || verdict > AMBULO_NOT_CONVERGED)
     return (wording){"unknown", "unknown verdict"};
   return verdicts[verdict];
 }
@@ -154,9 +154,15 @@ double ambulo__relative(const ambulo_violation *v) {
   return v->worst / v->size;
 }
 
-static int is_limit(ambulo_ending ending) {
+int ambulo__is_limit(ambulo_ending ending) {
   return ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_EVALUATIONS ||
          ending == AMBULO_ENDING_TIME;
+}
+
+int ambulo__ended_by_cap(const ambulo__run *run) {
+  if (run->ending == AMBULO_ENDING_ITERATIONS)
+    return run->options->maximum_iterations < ambulo_options_default().maximum_iterations;
+  return ambulo__is_limit(run->ending);
 }
 
 /* (A.4) what violation and KKT residual allow to say */
@@ -171,13 +177,13 @@ ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_option
   if (ending == AMBULO_ENDING_CALLER) return AMBULO_INTERRUPTED;
   if (feasible) return AMBULO_FEASIBLE;
   if (ending == AMBULO_ENDING_BREAKDOWN) return AMBULO_NUMERIC_FAILURE; /* shows no conflict */
-  return is_limit(ending) ? AMBULO_LIMIT_REACHED : AMBULO_INFEASIBLE;
+  return ambulo__is_limit(ending) ? AMBULO_LIMIT_REACHED : AMBULO_INFEASIBLE;
 }
 
 /* --------------------------------------------------------------------- reports */
 
 void ambulo__report_families(const ambulo_result *r, double tolerance, ambulo_diagnostics *list) {
-  if (r->verdict != AMBULO_INFEASIBLE) return;
+  if (r->verdict != AMBULO_INFEASIBLE && r->verdict != AMBULO_NOT_CONVERGED) return;
   for (int f = 0; f < r->families; f++) {
     const ambulo_violation *v = &r->family[f];
     if (!(ambulo__relative(v) > tolerance)) continue;
@@ -223,6 +229,8 @@ void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diag
 
 void ambulo__settle_verdict(const ambulo__run *run, ambulo_result *r) {
   const ambulo_explanation *e = ambulo_result_explanation(r);
-  if (r->verdict != AMBULO_LIMIT_REACHED || run->ending != AMBULO_ENDING_ITERATIONS || !e) return;
-  if (e->complete && !e->feasible_point && e->conflict_count > 0) r->verdict = AMBULO_INFEASIBLE;
+  if (!e) return;
+  if (r->verdict == AMBULO_INFEASIBLE && !e->confirmed) r->verdict = AMBULO_NOT_CONVERGED;
+  if (r->verdict == AMBULO_LIMIT_REACHED && e->confirmed && !ambulo__ended_by_cap(run))
+    r->verdict = AMBULO_INFEASIBLE;
 }

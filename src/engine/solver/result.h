@@ -65,8 +65,16 @@ void ambulo__report_faults(const ambulo__run *run, ambulo_result *result,
 void ambulo__report_families(const ambulo_result *result, double tolerance,
                              ambulo_diagnostics *diagnostics);
 
-/* The method's own iteration limit is no answer where the least violation was found, and is not
- * zero: then no more iterations would have helped. */
+/* 1 for endings by time, evaluations, iterations. */
+int ambulo__is_limit(ambulo_ending ending);
+
+/* 1 when a cap that the caller may raise ended the run: time, evaluations, or fewer iterations
+ * than the default. Its point says nothing about the rows. */
+int ambulo__ended_by_cap(const ambulo__run *run);
+
+/* What the explanation adds to the verdict: a solve whose rows are not shown to contradict each
+ * other has not converged. The method's own iteration limit is no answer where they do: then no
+ * more iterations would have helped. */
 void ambulo__settle_verdict(const ambulo__run *run, ambulo_result *result);
 
 /* audit.c: how good a point is, recomputed from its unknowns alone. */

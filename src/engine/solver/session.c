@@ -252,6 +252,35 @@ static ambulo_status look_again(ambulo__session *s) {
   return status;
 }
 
+/* Why there is no solution, as far as is known. Where the least violated motion holds every row it
+ * is a start, and its rows stay held: the solver missed it. */
+static ambulo_status explain_or_recover(ambulo__session *s) {
+  ambulo_result *r = s->result;
+  double *nearest = ambulo__pool_doubles(&s->engine->pool, (size_t)s->engine->setup->n);
+  if (!nearest) return AMBULO_E_MEMORY;
+  r->ending_code = s->run.ending;
+  s->run.stage = "explanation";
+  ambulo_status status = ambulo__explain(s->engine, r, nearest);
+  const ambulo_explanation *e = ambulo_result_explanation(r);
+  if (status || !e || !e->feasible_point || ambulo__is_limit(s->run.ending)) return status;
+  if (ambulo__run_over(&s->run)) return AMBULO_OK;
+  s->run.stage = "solve";
+  ambulo__candidates_offer(&s->candidates, s->engine, nearest);
+  if (s->engine->setup->rows->regular) {
+    status = ambulo__pipeline(s->engine, AMBULO__NEAR, nearest);
+    if (status && status != AMBULO_E_NUMERIC) return status;
+    ambulo__candidates_offer(&s->candidates, s->engine, nearest);
+  }
+  (void)ambulo__candidates_take(&s->candidates, r->x);
+  status = judge(s);
+  if (status || !ambulo_verdict_is_solution(r->verdict)) return status;
+  ambulo_allocator a = r->allocator;
+  ambulo__free(&a, r->explanation);
+  r->explanation = NULL;
+  s->note = "; from the motion nearest to where it had stalled that holds every row";
+  return look_again(s);
+}
+
 /* the run ended before there was an engine: what the start is */
 static ambulo_status finish_unsolved(ambulo__session *s) {
   ambulo_result *r = s->result;
@@ -293,7 +322,9 @@ ambulo_status ambulo__session_finish(ambulo__session *s) {
   ambulo_result *r = s->result;
   ambulo_status status = judge(s);
   if (!status && s->explains) status = look_again(s);
+  if (!status && s->explains) status = explain_or_recover(s);
   if (status) return status;
+  ambulo__settle_verdict(&s->run, r);
   end_history(s);
   status = look_between(s);
   if (status) return status;
@@ -301,10 +332,6 @@ ambulo_status ambulo__session_finish(ambulo__session *s) {
   r->evaluations = s->run.evaluations;
   ambulo__report_faults(&s->run, r, s->diagnostics);
   describe(s);
-  s->run.stage = "explanation";
-  if (s->explains) status = ambulo__explain(s->engine, r);
-  if (status) return status;
-  ambulo__settle_verdict(&s->run, r);
   if (s->explains)
     ambulo__report_families(r, s->run.options->feasibility_tolerance, s->diagnostics);
   ambulo__engine_free(s->engine);

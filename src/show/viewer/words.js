@@ -10,6 +10,9 @@ export const verdicts = {
   infeasible: ["bad", "No solution",
     "This motion breaks at least one of the rules of the problem. It is shown because it comes " +
     "near; its numbers are no prediction."],
+  not_converged: ["bad", "Not converged",
+    "This motion breaks at least one of the rules of the problem, but nothing shows that the rules " +
+    "contradict each other. It is no prediction."],
   numeric_failure: ["bad", "Numbers broke down",
     "A value was not finite, or no matrix could be factored. The motion is no prediction."],
   limit: ["bad", "Stopped by a limit",
