@@ -104,8 +104,9 @@ typedef struct ambulo_options {
   int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:
                  auto`; without effect in ambulo_solve */
   int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as
-                 fine, the same in every run; the solve continues from the best
-                 (ambulo_result_starts); without effect where the caller gives a start */
+                 fine, the same in every run; the solve continues from the best and from its own
+                 start, and returns the better result (ambulo_result_starts); without effect where
+                 the caller gives a start */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;
@@ -335,7 +336,8 @@ AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result
 AMBULO_API const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *result);
 /* Of several starts that of the last solve, of free parameters that of the best one. */
 AMBULO_API const ambulo_history *ambulo_result_history(const ambulo_result *result);
-/* Valleys of the objective that several starts (ambulo_options.starts) ended in. */
+/* Valleys of the objective (within .1 % of it, and .05 rad or m) that several starts
+ * (ambulo_options.starts) ended in. */
 typedef struct ambulo_basin {
   double objective; /* on the coarse grid */
   int found, first; /* how many starts ended there; number of the first, 0 is the solver's own */
@@ -344,8 +346,10 @@ typedef struct ambulo_basin {
 typedef struct ambulo_starts {
   int count, solved;          /* starts tried; that ended at a motion which holds every row */
   int intervals;              /* of the coarse grid */
-  const ambulo_basin *basins; /* [basin_count], the best, from which the solve continues, first */
+  const ambulo_basin *basins; /* [basin_count], the best first */
   int basin_count;
+  int chosen; /* the start whose solve on the problem's own grid is the result: 0, or the first of
+                 the best valley where that came to less */
 } ambulo_starts;
 /* NULL for one start. */
 AMBULO_API const ambulo_starts *ambulo_result_starts(const ambulo_result *result);

@@ -114,15 +114,18 @@ void ambulo__cli_print_last(const ambulo_result *result) {
   if (dense && dense->summary[0]) printf("%s\n", dense->summary);
 }
 
-/* "starts  8, of which 7 hold every row: 0.0640 (5 times, continued), 0.0712 (2 times)" */
+/* "starts  8, of which 7 hold every row on 30 intervals: 2 motions, 0.0640 (5 times), 0.0712 (2
+ * times); the result is from start 3" */
 static void print_starts(const ambulo_starts *starts) {
   if (!starts) return;
   printf("starts       %d, of which %d hold every row on %d intervals", starts->count,
          starts->solved, starts->intervals);
+  if (starts->basin_count > 0)
+    printf(": %d motion%s", starts->basin_count, starts->basin_count == 1 ? "" : "s");
   for (int b = 0; b < starts->basin_count; b++)
-    printf("%s %.6g (%d times%s)", b ? "," : ":", starts->basins[b].objective,
-           starts->basins[b].found, b ? "" : ", continued");
-  printf("\n");
+    printf(", %.6g (%d times)", starts->basins[b].objective, starts->basins[b].found);
+  printf("; the result is from start %d%s\n", starts->chosen,
+         starts->chosen ? "" : ", the solver's own");
 }
 
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {

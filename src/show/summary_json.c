@@ -290,6 +290,7 @@ static void starts(ambulo__json *json, const ambulo_starts *s) {
   ambulo__json_integer(json, "count", s->count);
   ambulo__json_integer(json, "solved", s->solved);
   ambulo__json_integer(json, "intervals", s->intervals);
+  ambulo__json_integer(json, "chosen", s->chosen);
   ambulo__json_open(json, "basins", '[');
   for (int b = 0; b < s->basin_count; b++) {
     ambulo__json_open(json, NULL, '{');

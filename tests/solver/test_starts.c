@@ -38,6 +38,28 @@ static void a_cheaper_valley_is_gone_on_from(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* what is the best on a coarse grid may not be on the problem's own: several starts are never worse
+ * than one */
+static void several_are_never_worse_than_one(void **state) {
+  (void)state;
+  static const char *const names[] = {"yardstick_36", "walker_2d_step", "hop"};
+  for (int i = 0; i < 3; i++) {
+    ambulo_problem *problem = load_problem(names[i]);
+    ambulo_result *one = solve(problem, 1, NULL), *eight = solve(problem, 8, NULL);
+    const ambulo_starts *s = ambulo_result_starts(eight);
+    if (ambulo_verdict_is_solution(one->verdict)) {
+      assert_true(ambulo_verdict_is_solution(eight->verdict));
+      assert_true(eight->objective <= one->objective);
+    }
+    assert_true(s->chosen == 0 || s->chosen == s->basins[0].first);
+    if (s->chosen == 0)
+      assert_memory_equal(one->x, eight->x, (size_t)one->variables * sizeof *one->x);
+    ambulo_result_free(one);
+    ambulo_result_free(eight);
+    ambulo_problem_free(problem);
+  }
+}
+
 static void every_run_is_the_same(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("walker_2d_step");
@@ -155,6 +177,7 @@ static void starts_of_a_walk_by_its_limits(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(starts_of_a_walk_by_its_limits),
                                      cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
+                                     cmocka_unit_test(several_are_never_worse_than_one),
                                      cmocka_unit_test(every_run_is_the_same),
                                      cmocka_unit_test(the_own_start_stays_what_it_is),
                                      cmocka_unit_test(a_stop_keeps_what_is_there),

@@ -9,9 +9,11 @@
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (session.c).
  *
- * From several starts: each is solved on a coarse grid, and the best end is the start on the
- * problem's own. Start 0 is the start pose, at rest. Start k > 0 has, for each coordinate that is
- * not a translation of the root, the curve over s = t/T
+ * From several starts: each is solved on a coarse grid, and the best end is a start on the
+ * problem's own. So is start 0, whatever it came to on the coarse grid: of both results the better
+ * one is returned, and several starts are never worse than one. Start 0 is the start pose, at rest.
+ * Start k > 0 has, for each coordinate that is not a translation of the root, the curve over s =
+ * t/T
  *
  *     q(s) = q_0 + A (r_0 + r_1 cos 2 pi s + r_2 sin 2 pi s),   r uniform in [-1, 1],
  *     A = .15 of the coordinate's range, at most .3 rad or m
@@ -20,7 +22,7 @@
  * solve begins. r follows from k and the coordinate alone (splitmix64, Steele, Lea & Flood 2014):
  * every run and machine has the same starts.
  *
- * Two ends are of one valley when their objectives differ by at most .5 % and their control points
+ * Two ends are of one valley when their objectives differ by at most .1 % and their control points
  * by .05 rad or m, root mean square.
  *
  * Reading order: solve.c, session.h, session.c, result.h, audit.c, result.c; between the nodes:
@@ -32,6 +34,7 @@
  */
 #include "solver/session.h"
 
+#include "base/diagnostics.h"
 #include "base/machine.h"
 #include "contact/row_families.h"
 #include "method/pipeline.h"
@@ -46,7 +49,7 @@
 
 static const double near_rows = 1e-3;                       /* relative to their sizes */
 static const double amplitude = 0.15, most_amplitude = 0.3; /* of a range; rad, m */
-static const double like_objective = 5e-3, like_points = 0.05;
+static const double like_objective = 1e-3, like_points = 0.05;
 enum { LEAST_INTERVALS = 12, LEAST_SPLINE = 6 };
 
 /* ------------------------------------------------------------------- one start */
@@ -288,53 +291,91 @@ static ambulo_status carry(const search_of_starts *s, const ambulo_problem *to, 
 
 /* *start, to be freed by the caller with the allocator, is where the best of them ends, carried
  * over to the problem's own grid; NULL where that is where the first one ends, which is the
- * solver's own start, or where none ends at a solution. *valleys, to be freed likewise, is NULL
- * when memory runs out: E_MEMORY. */
-static ambulo_status solve_starts(const ambulo_problem *problem, const ambulo_options *options,
-                                  const ambulo_allocator *allocator, double **start,
-                                  ambulo__valleys **valleys) {
-  search_of_starts s = {.options = *options, .begin = ambulo__seconds_now()};
+ * solver's own start, or where none ends at a solution. The valleys are the caller's likewise. */
+static ambulo_status solve_starts(search_of_starts *s, const ambulo_problem *problem,
+                                  double **start) {
   ambulo_problem *grid = NULL;
-  s.allocator = ambulo__allocator_or_default(allocator);
-  *start = NULL;
-  *valleys = s.valleys = ambulo__alloc(&s.allocator, 1, sizeof *s.valleys);
-  if (!s.valleys) return AMBULO_E_MEMORY;
-  ambulo_status status = coarse(problem, &s.allocator, &grid);
-  s.problem = grid;
-  if (!status) status = run(&s);
+  s->valleys = ambulo__alloc(&s->allocator, 1, sizeof *s->valleys);
+  if (!s->valleys) return AMBULO_E_MEMORY;
+  ambulo_status status = coarse(problem, &s->allocator, &grid);
+  s->problem = grid;
+  if (!status) status = run(s);
   if (!status) {
-    sort(&s);
-    s.valleys->shown.intervals = grid->definition.intervals;
-    s.valleys->shown.basins = s.valleys->basin;
-    status = carry(&s, problem, start);
+    sort(s);
+    s->valleys->shown.intervals = grid->definition.intervals;
+    s->valleys->shown.basins = s->valleys->basin;
+    status = carry(s, problem, start);
   }
-  for (int b = 0; b < AMBULO_MOST_STARTS; b++) ambulo__free(&s.allocator, s.x[b]);
+  for (int b = 0; b < AMBULO_MOST_STARTS; b++) ambulo__free(&s->allocator, s->x[b]);
   ambulo_problem_free(grid);
   return status;
 }
 
 /* ----------------------------------------------------------------- entry points */
 
-/* from several starts; what is left of the time limit is the last solve's */
+/* a result with what is to be said of it */
+typedef struct answer {
+  ambulo_result *result;
+  ambulo_diagnostics *messages;
+} answer;
+
+static void free_answer(answer *a) {
+  ambulo_result_free(a->result);
+  ambulo_diagnostics_free(a->messages);
+}
+
+static ambulo_status answer_from(const search_of_starts *s, const ambulo_problem *problem,
+                                 const double *start, answer *out) {
+  ambulo_options options = s->options;
+  options.time_limit = time_left(s);
+  out->messages = ambulo_diagnostics_create(&s->allocator);
+  if (!out->messages) return AMBULO_E_MEMORY;
+  return solve_once(problem, &options, start, 1, &s->allocator, out->messages, &out->result);
+}
+
+/* one that holds its rows, then the lower objective, then the smaller violation */
+static int is_better(const ambulo_result *one, const ambulo_result *other) {
+  int holds = ambulo_verdict_is_solution(one->verdict);
+  if (holds != ambulo_verdict_is_solution(other->verdict)) return holds;
+  if (holds) return one->objective < other->objective;
+  return ambulo__relative(&one->audit.violation) < ambulo__relative(&other->audit.violation);
+}
+
+static int is_stopped(const ambulo_result *r) {
+  return r->ending_code == AMBULO_ENDING_CALLER || r->ending_code == AMBULO_ENDING_TIME;
+}
+
+/* the better of the solver's own start and of the best of the others */
 static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambulo_options *options,
                                        const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo_result **result) {
-  ambulo_allocator a = ambulo__allocator_or_default(allocator);
-  ambulo_options last = *options;
-  ambulo__valleys *valleys = NULL;
-  double *start = NULL, begin = ambulo__seconds_now();
-  ambulo_status status = solve_starts(problem, options, allocator, &start, &valleys);
-  if (last.time_limit > 0.0)
-    last.time_limit = fmax(1e-3, last.time_limit - (ambulo__seconds_now() - begin));
-  if (!status) status = solve_once(problem, &last, start, 1, allocator, diagnostics, result);
-  if (!status) {
-    (*result)->valleys = valleys;
-    (*result)->timing.total = ambulo__seconds_now() - begin;
-    valleys = NULL;
+  search_of_starts s = {.options = *options, .begin = ambulo__seconds_now()};
+  answer own = {0}, best = {0};
+  double *start = NULL;
+  s.allocator = ambulo__allocator_or_default(allocator);
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status = solve_starts(&s, problem, &start);
+  if (!status) status = answer_from(&s, problem, NULL, &own);
+  if (!status && start && !is_stopped(own.result)) status = answer_from(&s, problem, start, &best);
+  if (!status && best.result && is_better(best.result, own.result)) {
+    answer other = own;
+    own = best;
+    best = other;
+    s.valleys->shown.chosen = s.valleys->basin[0].first;
   }
-  ambulo__free(&a, start);
-  ambulo__free(&a, valleys);
-  return status;
+  ambulo__diagnostics_append(own.messages, diagnostics);
+  free_answer(&best);
+  ambulo_diagnostics_free(own.messages);
+  ambulo__free(&s.allocator, start);
+  if (status) {
+    ambulo_result_free(own.result);
+    ambulo__free(&s.allocator, s.valleys);
+    return ambulo__conclude(diagnostics, errors, status, NULL);
+  }
+  own.result->valleys = s.valleys;
+  own.result->timing.total = ambulo__seconds_now() - s.begin;
+  *result = own.result;
+  return AMBULO_OK;
 }
 
 ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *options,
