@@ -19,7 +19,7 @@ else ifeq ($(VARIANT),san)
   OUT := build/san
   # the instrumentation hides value ranges from the compiler, whose warnings about lengths
   # and initialization are then often wrong: they stay warnings here
-  MODE := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
+  MODE := -O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined \
     -fno-sanitize-recover=undefined -Wno-error
 else ifeq ($(VARIANT),cov)
   OUT := build/cov
@@ -100,17 +100,19 @@ CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
 SHARED_LIBRARY = $(OUT)/$(call shared_name,)
-ARCHIVE := $(OUT)/libambulo$(if $(ENGINE),_engine).a
+ARCHIVE := $(OUT)/libambulo$(if $(ENGINE),_engine)$(if $(READERS),_readers).a
 
 # ----------------------------------------------------------------- sources
 
-SOURCES := $(sort $(if $(ENGINE),$(wildcard src/engine/*/*.c),$(wildcard src/*/*.c src/*/*/*.c)))
+# with READERS=1, as `make sanitize-engine` has it, src/engine and src/files, which its tests need
+SOURCES := $(sort $(wildcard src/engine/*/*.c) $(if $(ENGINE),,$(wildcard src/files/*/*.c)) \
+  $(if $(ENGINE)$(READERS),,$(wildcard src/*/*.c)))
 ifeq ($(X86),)
   SOURCES := $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
-  $(if $(ENGINE),,$(OUT)/obj/viewer.o)
+  $(if $(ENGINE)$(READERS),,$(OUT)/obj/viewer.o)
 CLI_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(CLI_SOURCES))
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
@@ -174,7 +176,8 @@ define RECORD
 endef
 $(OUT)/obj/flags: force | build/.found
 	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(KERNEL) $(KERNEL_avx512) $(KERNEL_avx2) $(CFLAGS))
-$(OUT)/obj/sources: force
+SOURCES_RECORD := $(OUT)/obj/$(notdir $(ARCHIVE)).sources
+$(SOURCES_RECORD): force
 	$(call RECORD,$(SOURCES) $(LDFLAGS) $(LIBS))
 
 # commands are shown with V=1
@@ -204,14 +207,14 @@ $(OUT)/obj/viewer.c: src/show/viewer.html Makefile
 $(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags
 	$(call compile,)
 
-$(ARCHIVE): $(LIB_OBJECTS) $(OUT)/obj/sources
+$(ARCHIVE): $(LIB_OBJECTS) $(SOURCES_RECORD)
 	@rm -f $@
 	$(call quiet,AR $@)$(AR) rcs $@ $(LIB_OBJECTS)
 
 $(OUT)/obj/libambulo.map: $(HEADERS) .setup/symbols.sh
 	@mkdir -p $(@D); .setup/symbols.sh map > $@
 
-$(SHARED_LIBRARY): $(LIB_OBJECTS) $(OUT)/obj/sources $(VERSIONS)
+$(SHARED_LIBRARY): $(LIB_OBJECTS) $(SOURCES_RECORD) $(VERSIONS)
 	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
 # one variant reports which functions it enters
@@ -361,7 +364,7 @@ test-engine: all $(ENGINE_OBJECTS)
 	  JOBS=$(JOBS) OUT=$(OUT) tests/support/all.sh $$programs
 
 sanitize-engine: build/.ready-test
-	$(submake) VARIANT=san run-engine-tests
+	$(submake) VARIANT=san READERS=1 run-engine-tests
 run-engine-tests: $(ENGINE_TESTS)
 	@JOBS=$(JOBS) OUT=$(OUT) MODE='$(MODE)' tests/support/all.sh $(ENGINE_TESTS)
 

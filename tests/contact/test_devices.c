@@ -220,8 +220,30 @@ static void test_none_is_none(void **state) {
   ambulo__devices_free(devices);
 }
 
+/* a torque at joints that turn; a force at those that slide, and between points */
+static void test_what_turns_is_a_torque(void **state) {
+  (void)state;
+  device_case c;
+  int turning = 0, sliding = 0;
+  for (int index = 0; index < 12; index++) {
+    device_case_open(&c, index);
+    ambulo_device device = ambulo_device_default(AMBULO_DEVICE_SPRING);
+    assert_int_equal(device.coordinate, -1);
+    assert_int_equal(ambulo__device_turns(c.model, &device), 0);
+    for (device.coordinate = 0; device.coordinate < c.d; device.coordinate++) {
+      int turns = c.model->coordinates[device.coordinate].type == AMBULO_REVOLUTE;
+      assert_int_equal(ambulo__device_turns(c.model, &device), turns);
+      turning += turns;
+      sliding += !turns;
+    }
+    device_case_close(&c);
+  }
+  assert_true(turning > 0 && sliding > 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_what_turns_is_a_torque),
       cmocka_unit_test(test_forces_are_those_of_the_reference),
       cmocka_unit_test(test_gradients_are_complex_steps),
       cmocka_unit_test(test_the_reverse_sweep_is_the_transpose),

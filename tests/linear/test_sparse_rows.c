@@ -31,6 +31,10 @@ static void check_gradients(const char *name, const char *override, double size)
   compare(&f, &rows->equality);
   compare(&f, &rows->inequality);
   compare(&f, &rows->border);
+  for (int i = 0; i < rows->inequality.count; i++)
+    ambulo__sparse_rows_set_scale(&rows->inequality, i, -0.1 - 0.01 * (i % 7));
+  ambulo__sparse_rows_fill(&rows->inequality, f.engine->workspace, 1);
+  compare(&f, &rows->inequality);
   engine_close(&f);
 }
 
@@ -39,6 +43,7 @@ static void check_gradients(const char *name, const char *override, double size)
 static void gradients_are_the_dense_ones(void **state) {
   (void)state;
   check_gradients("yardstick_12", NULL, 0.2);
+  check_gradients("yardstick_12", "constraints.joint_limits=control_points", 0.2);
   check_gradients("support/walk_rigid", NULL, 0.01);
   check_gradients("support/walk_rigid", "constraints.torque_limits=true", 0.01);
   check_gradients("walk_carrying", "constraints.torque_limits=true", 0.01); /* by both hands */

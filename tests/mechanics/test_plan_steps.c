@@ -157,6 +157,24 @@ static void failed_allocations_unwind(void **state) {
   contact_case_close(&c);
 }
 
+/* the sum over all links has a place of its own, kept until the contacts take it */
+static void the_sum_over_all_has_its_place(void **state) {
+  (void)state;
+  static contact_case c;
+  for (int number = -shipped_contact_count; number < 30; number++) {
+    contact_case_open(&c, number);
+    const ambulo__plan *plan = c.body.plan;
+    int all = plan->frames[0].subtree_at, size = AMBULO__SUBTREE * AMBULO__LANES;
+    assert_true(all > 0);
+    for (int k = 0; k < plan->coordinates; k++) {
+      int own = plan->frames[k + 1].subtree_at, motion = plan->joints[k].motion_at;
+      assert_true(own < 0 || own >= all + size || own + size <= all);
+      assert_true(motion >= all + size || motion + 18 * AMBULO__LANES <= all);
+    }
+    contact_case_close(&c);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sizes_follow_the_contacts),
                                      cmocka_unit_test(a_plan_in_the_air_has_no_contacts),
@@ -164,6 +182,7 @@ int main(void) {
                                      cmocka_unit_test(factors_have_one_use),
                                      cmocka_unit_test(joints_carry_what_acts_beyond_them),
                                      cmocka_unit_test(what_is_no_contact_is_refused),
+                                     cmocka_unit_test(the_sum_over_all_has_its_place),
                                      cmocka_unit_test(failed_allocations_unwind)};
   return cmocka_run_group_tests_name("mechanics/plan_contacts", tests, NULL, NULL);
 }

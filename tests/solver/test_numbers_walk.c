@@ -87,6 +87,32 @@ static void a_stance_moves_as_one(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* two hands on one place are two footholds, however long each of them stays */
+#define ON_ONE_PLACE                                                                               \
+  "contacts=[{foot: left, mode: flat, from: 0, to: 3, place: [0, 0.1]}, "                          \
+  "{foot: right, mode: flat, from: 0, to: 3, place: [0, -0.1]}, "                                  \
+  "{patch: hand_l, from: 0, to: 1.5, " PLACE "}, {patch: hand_l, from: 1.5, to: 3, " PLACE "}, "   \
+  "{patch: hand_r, from: 0, to: 3, " PLACE "}]"
+#define PLACE "place: [0.95, 0, 1.3], normal: [-1, 0, 0]"
+
+static void each_patch_moves_by_itself(void **state) {
+  (void)state;
+  static const char *const overrides[] = {"ends=null", "constraints.tubes=null", "time.intervals=6",
+                                          "trajectory.intervals=4", ON_ONE_PLACE};
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/push_up_wall.yaml", overrides, 5, NULL, NULL, &problem),
+      AMBULO_OK);
+  ambulo_result *result = scattered(problem);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  assert_string_equal(find(list, "contacts[2].place[0]")->with, "contacts[3].place[0]");
+  assert_string_equal(find(list, "contacts[4].place[0]")->with, "");
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 static void phases_of_a_walk_on_arcs(void **state) {
   (void)state;
   static const setting c = {
@@ -217,6 +243,7 @@ int main(void) {
       cmocka_unit_test(stairs),
       cmocka_unit_test(walk_on_arcs),
       cmocka_unit_test(a_stance_moves_as_one),
+      cmocka_unit_test(each_patch_moves_by_itself),
       cmocka_unit_test(phases_of_a_walk),
       cmocka_unit_test(phases_of_a_walk_that_strikes_late),
       cmocka_unit_test(phases_that_are_close),

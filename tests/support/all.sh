@@ -47,6 +47,14 @@ present=() missing=()
 for program in "${programs[@]}"; do
   if [ -x "${program%%:*}" ]; then present+=("$program"); else missing+=("$program"); fi
 done
+# those of longest.txt first, in its order
+[ ${#present[@]} = 0 ] || mapfile -t present < <(printf '%s\n' "${present[@]}" | awk -v list=tests/support/longest.txt '
+  BEGIN { while ((getline line < list) > 0) place[line] = ++lines }
+  {
+    n = split($0, part, "/")
+    name = part[n - 1] "/" part[n]
+    print (name in place ? place[name] : lines + NR), $0
+  }' | sort -n | cut -d" " -f2-)
 [ ${#present[@]} = 0 ] || printf '%s\0' "${present[@]}" | xargs -0 -r -n1 -P "${JOBS:-1}" bash -c 'run_one "$1"' run_one
 
 # sum of the numbers that a pattern (with one group) captures in a log

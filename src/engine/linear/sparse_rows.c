@@ -228,7 +228,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
 
 /* ------------------------------------------------------------------- values */
 
-/* the entries of a row on its host from slopes y [orders][support], times its scale */
+/* (LR) the entries of a row on its host from slopes y [orders][support], times its scale */
 static void spread(const ambulo__sparse_rows *s, int i, int orders, const double *restrict y) {
   const ambulo__basis_point *point = point_of(s->problem, s->host[i]);
   const int width = s->support[i];
@@ -264,22 +264,15 @@ static void fill_local(ambulo__sparse_rows *s, const ambulo_workspace *workspace
 }
 
 static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
-  const ambulo_problem *p = s->problem;
-  int from = 0;
+  if (s->start[i + 1] == s->start[i]) return;
   if (s->support[i] > 0) {
     fill_local(s, workspace, i);
     return;
   }
-  if (ambulo__row_is_local(p, s->row[i])) {
-    from = ambulo__node_first(p, s->host[i]);
-    ambulo__row_local_gradient(workspace, s->row[i], s->dense);
-  } else {
-    memset(s->dense, 0, (size_t)p->variables * sizeof *s->dense);
-    ambulo__row_add_gradient(workspace, s->row[i], 1.0, s->dense);
-  }
-  for (int e = s->start[i]; e < s->start[i + 1]; e++) {
-    s->value[e] = s->scale[i] * s->dense[s->column[e] - from];
-  }
+  memset(s->dense, 0, (size_t)s->problem->variables * sizeof *s->dense);
+  ambulo__row_add_gradient(workspace, s->row[i], 1.0, s->dense);
+  for (int e = s->start[i]; e < s->start[i + 1]; e++)
+    s->value[e] = s->scale[i] * s->dense[s->column[e]];
 }
 
 /* of rows that are stale the slopes are looked at */

@@ -247,9 +247,6 @@ void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int ou
 void ambulo__row_slopes(const ambulo_workspace *workspace, int row, double *slopes);
 /* How many of q, qd and qdd a channel depends on: 1, q only, or 3. */
 int ambulo__channel_orders(const ambulo_problem *problem, int channel);
-/* After ambulo__evaluate_jacobian: gradient of row r with respect to the local
- * unknowns of its node (local rows only): gradient[span * d], zero-filled first. */
-void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient);
 /* Gradient of one channel at one node with respect to the node's local unknowns. */
 void ambulo__channel_local_gradient(const ambulo_workspace *workspace, int node, int channel,
                                     double *gradient);

@@ -230,15 +230,6 @@ void ambulo__row_slopes(const ambulo_workspace *workspace, int row, double *slop
     add_channel(workspace, r->node, term[t].channel, term[t].coefficient, slopes);
 }
 
-/* (LR) one row, on the unknowns of its node */
-void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient) {
-  const ambulo_problem *p = workspace->problem;
-  int node = p->table.rows[row].node;
-  memset(gradient, 0, (size_t)ambulo__node_width(p, node) * sizeof *gradient);
-  ambulo__row_slopes(workspace, row, workspace->motion_scratch);
-  add_motion(p, node, workspace->motion_scratch, gradient);
-}
-
 void ambulo__row_add_gradient(const ambulo_workspace *workspace, int row, double factor,
                               double *gradient) {
   const ambulo_problem *p = workspace->problem;
