@@ -78,6 +78,7 @@ typedef struct ambulo_device {
   int point_count;           /* joined by monotone cubics (pchip) */
   int foot;                  /* whose stride the clutch or profile follows; -1: none */
   int clutch;                /* 1: engaged during a part of the stride only */
+  int alone;                 /* 1: nothing else drives the coordinate, as of a prosthesis */
   int image_of;              /* the device whose mirror image this is (`mirror` of a file): a
                                 sensitivity of that device moves both; -1: none */
   double from, to, ramp;     /* of the clutch, fractions of the stride; from > to: past its end */

@@ -2,6 +2,7 @@
 #include "base/arithmetic.h"
 #include "contact/devices.h"
 #include "model/model.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -104,7 +105,8 @@ static ambulo_status check_clutch(int i, const ambulo_device *v, ambulo_diagnost
 
 static ambulo_status check_driven(const ambulo_model *m, int i, const ambulo_device *v,
                                   int coordinate, ambulo_diagnostics *list) {
-  if (m->coordinates[coordinate].actuated) return AMBULO_OK;
+  if (m->coordinates[coordinate].actuated || !ambulo__carries_whole_body(m, coordinate))
+    return AMBULO_OK;
   return REFUSE(
       list,
       "devices[%d]: '%s' would act on '%s', which moves the whole body; expected something "

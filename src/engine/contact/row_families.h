@@ -92,6 +92,10 @@ int ambulo__swing_track(const ambulo_problem_definition *definition, int foot, d
                         int *is_left);
 /* "joint_limit", "speed_limit", "torque_limit". */
 void ambulo__limit_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* 1: nothing drives the coordinate, and nothing that touches the body supplies its force. */
+int ambulo__is_passive(const ambulo_problem_definition *definition, int coordinate);
+/* "passive": no torque of coordinates that nothing drives. */
+void ambulo__passive_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* Every tube has samples, a reference and widths >= 0; E_PROBLEM with its number otherwise. */
 ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                                   ambulo_diagnostics *diagnostics);

@@ -56,6 +56,7 @@ static const ambulo__row_kind_entry kinds[AMBULO__ROW_KINDS] = {
      AMBULO_LIMITED_SPEED, 1.0},
     {"torque_limit", AMBULO__NEWTONS, AMBULO__NEWTON_METRES, AMBULO__AT_TIMES,
      AMBULO_LIMITED_TORQUE, 1.0},
+    {"passive", AMBULO__NEWTONS, AMBULO__NEWTON_METRES, AMBULO__AT_TIMES, NONE, 30.0},
     {"tracking_tube", M, RAD, AMBULO__AT_TIMES, NONE, 1.0},
     {"collision", M, M, AMBULO__AT_TIMES, NONE, 30.0},
     {"obstacle", M, M, AMBULO__AT_TIMES, NONE, 3.0},

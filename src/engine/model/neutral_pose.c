@@ -101,6 +101,15 @@ int ambulo__is_root_translation(const ambulo_model *model, int coordinate) {
   return model->coordinates[coordinate].type == AMBULO_PRISMATIC;
 }
 
+int ambulo__carries_whole_body(const ambulo_model *model, int coordinate) {
+  for (int l = 0; l < model->link_count; l++) {
+    int at = l;
+    while (at >= 0 && model->links[at].coordinate != coordinate) at = model->links[at].parent;
+    if (at < 0 && model->links[l].mass > 0.0) return 0;
+  }
+  return 1;
+}
+
 /* DH transforms and bodies at q = 0 (segments.h).
  *
  * T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) has, with c, s of theta,

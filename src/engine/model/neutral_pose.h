@@ -33,6 +33,9 @@ int ambulo__model_moves_sideways(const ambulo_model *model);
  * itself prismatic: a translation of the whole body. */
 int ambulo__is_root_translation(const ambulo_model *model, int coordinate);
 
+/* 1 if every mass moves with the coordinate: it moves the whole body. */
+int ambulo__carries_whole_body(const ambulo_model *model, int coordinate);
+
 /* the body at q = 0 as rigid segments, seen along forward, up and left.
  *
  * Segment 0 is what is fixed to the world, segment c + 1 what coordinate c carries: its link and

@@ -187,6 +187,7 @@ static const ambulo__member device[] = {
     {COUNTER(point_count)},
     {INDEX("foot", foot), APART},
     {FLAG(NULL, clutch, 0)},
+    {FLAG("alone", alone, 0), APART},
     {INDEX(NULL, image_of)},
     {NUMBER("engaged.from", from, 0.0, 1.0, 0.0), REQUIRED, AMBULO__RATIO, "engagement"},
     {NUMBER("engaged.to", to, 0.0, 1.0, 0.0), REQUIRED, AMBULO__RATIO, "release"},

@@ -110,6 +110,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
     ambulo__flight_rows(&context, &p->table);
   }
   ambulo__limit_rows(&context, &p->table);
+  ambulo__passive_rows(&context, &p->table);
   ambulo__collision_rows(&context, &p->table);
   ambulo__obstacle_rows(&context, &p->table);
   status = ambulo__reach_rows(&context, &p->table, diagnostics);

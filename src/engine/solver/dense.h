@@ -56,7 +56,7 @@ static inline double ambulo__dense_channel(const ambulo__dense *dense, int node,
 /* What is asked of a motion between its nodes, family by family: the one table of tolerances
  * (docs/results.md and include/ambulo/solve.h repeat it). The first two are of what no row covers.
  */
-enum { AMBULO__DENSE_RULE_SLIP, AMBULO__DENSE_RULE_FORCE, AMBULO__DENSE_RULES = 24 };
+enum { AMBULO__DENSE_RULE_SLIP, AMBULO__DENSE_RULE_FORCE, AMBULO__DENSE_RULES = 26 };
 
 /* What helps where more intervals do not. */
 typedef enum ambulo__dense_remedy {
@@ -113,6 +113,8 @@ typedef void (*ambulo__dense_visitor)(void *user, const ambulo__dense_sample *sa
 void ambulo__dense_rows(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
 /* Of each loaded point of each foot. */
 void ambulo__dense_slip(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
+/* What is asked of coordinates that nothing drives, at every node: rows hold it at few. */
+void ambulo__dense_passive(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
 /* Of all contacts together and, with ground reaction, of each foot; nothing without contacts. */
 void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user);
 

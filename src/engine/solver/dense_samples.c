@@ -3,6 +3,7 @@
  */
 #include "base/arithmetic.h"
 #include "contact/contacts.h"
+#include "contact/row_families.h"
 #include "solver/dense.h"
 
 #include <math.h>
@@ -40,7 +41,9 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
 void ambulo__dense_rows(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo__row_table *table = &dense->fine->table;
   for (int r = 0; r < table->row_count; r++) {
-    int rule = table->rows[r].node < 0 ? -1 : ambulo__dense_rule_of_row(&table->rows[r]);
+    const ambulo__table_row *row = &table->rows[r];
+    int elsewhere = row->node < 0 || row->kind == AMBULO__KIND_PASSIVE; /* see below */
+    int rule = elsewhere ? -1 : ambulo__dense_rule_of_row(row);
     if (rule >= 0) visit_row(dense, r, rule, visit, user);
   }
 }
@@ -299,6 +302,34 @@ void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit
   }
 }
 
+/* ----------------------------------------------------------------- passive */
+
+/* (A.2c) |tau| of what nothing drives (contact/passive.c); its tolerance counts in body weights, of
+ * a torque times 1 m */
+void ambulo__dense_passive(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
+  const ambulo_problem *p = dense->problem;
+  const double weight = ambulo__model_weight(p->model);
+  for (int i = 0; i < p->coordinates; i++) {
+    const ambulo_coordinate *c = &p->model->coordinates[i];
+    if (!ambulo__is_passive(&p->definition, i)) continue;
+    ambulo__table_row row = {.kind = AMBULO__KIND_PASSIVE};
+    row.measure = (unsigned char)ambulo__row_measure(AMBULO__KIND_PASSIVE, c->type, 0);
+    int rule = ambulo__dense_rule_of_row(&row);
+    ambulo__dense_sample sample = {.rule = rule,
+                                   .family = ambulo__row_family(AMBULO__KIND_PASSIVE),
+                                   .subject = c->name,
+                                   .detail = "driven",
+                                   .unit = ambulo__measure_text((ambulo__measure)row.measure),
+                                   .tolerance = ambulo__dense_rule_at(rule)->tolerance};
+    sample.tolerance *= ambulo__measure_size((ambulo__measure)row.measure, weight);
+    for (int k = 0; k < dense->fine->nodes; k++) {
+      sample.time = dense->fine->times[k];
+      sample.value = fabs(ambulo__dense_channel(dense, k, ambulo__channel_tau(&p->channels, i)));
+      visit(user, &sample);
+    }
+  }
+}
+
 /* ------------------------------------------------------------------- worst */
 
 typedef struct search {
@@ -337,4 +368,5 @@ void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__events *ev
   ambulo__dense_rows(dense, note, &s);
   ambulo__dense_slip(dense, note, &s);
   ambulo__dense_force(dense, note, &s);
+  ambulo__dense_passive(dense, note, &s);
 }

@@ -238,6 +238,13 @@ static void pressure(const ambulo__advice *a) {
   if (!is_fixed(a)) set_boxes(a, a->room / force);
 }
 
+static void passive(const ambulo__advice *a) {
+  ambulo__advice_say(a,
+                     "nothing drives %s, which would need %.4g %s at t = %.4g s: give the motion "
+                     "more time, or let a device act there",
+                     a->row->subject, a->give, a->row->unit, a->row->time);
+}
+
 int ambulo__advise_forces(const ambulo__advice *a) {
   switch (a->row->kind) {
   case AMBULO__KIND_ZMP:
@@ -254,6 +261,9 @@ int ambulo__advise_forces(const ambulo__advice *a) {
     return 1;
   case AMBULO__KIND_FLIGHT:
     flight(a);
+    return 1;
+  case AMBULO__KIND_PASSIVE:
+    passive(a);
     return 1;
   case AMBULO__KIND_PRESSURE:
     pressure(a);

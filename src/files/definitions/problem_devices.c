@@ -175,6 +175,7 @@ static void read_device(ambulo__problem_reader *reader, const ambulo__yaml_node 
   ambulo__yaml_expect(node, "mirror");
   if (device->kind == AMBULO_DEVICE_KIND_NOT_SET) return; /* that was said */
   read_site(reader, node, device);
+  if (device->coordinate >= 0) read_own(reader, ambulo__yaml_get(node, "alone"), "alone", device);
   read_law(reader, node, device);
   ambulo__yaml_close(node);
 }
