@@ -42,7 +42,8 @@ typedef struct ambulo_coordinate {
   double speed[2];        /* [min, max], rad/s or m/s */
   double torque[2];       /* [min, max] generalized force, N m or N */
   int actuated;           /* 0: no muscle drives it: its torque is 0 beside devices, or, of a
-                             coordinate that moves the whole body, what the ground supplies */
+                             coordinate that moves a whole body not hinged to the world, what
+                             the ground supplies */
   int mirror;             /* its counterpart in the mirror image; itself if unpaired (in a
                              definition also -1) */
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */

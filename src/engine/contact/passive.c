@@ -13,8 +13,9 @@
  *
  * A coordinate that carries every mass is the body's way through the world. What touches the body
  * supplies its force: with ground reaction tau_i vanishes identically, and without, the ground
- * under a walk of zero-moment points is left untold. So it has rows only where nothing touches the
- * body at any time, as of an acrobat on a bar.
+ * under a walk of zero-moment points is left untold, as is what carries a floating body of which no
+ * contact is given. So it has rows only where the body is hinged to the world and nothing else
+ * touches it, as an acrobat on a bar.
  */
 #include "contact/row_families.h"
 
@@ -28,8 +29,9 @@ int ambulo__is_passive(const ambulo_problem_definition *d, int coordinate) {
     if (d->devices[v].coordinate == coordinate && d->devices[v].alone) return 1;
   }
   if (m->coordinates[coordinate].actuated) return 0;
-  int touched = d->contact_count > 0 || d->ground_reaction.kind != AMBULO_REACTION_NONE;
-  return !(touched && ambulo__carries_whole_body(m, coordinate));
+  int supplied = d->contact_count > 0 || d->ground_reaction.kind != AMBULO_REACTION_NONE;
+  for (int i = 0; i < m->coordinate_count; i++) supplied |= ambulo__is_root_translation(m, i);
+  return !(supplied && ambulo__carries_whole_body(m, coordinate));
 }
 
 /* the j-th Greville abscissa of the accelerations' splines, of degree p - 2 on the same
