@@ -101,7 +101,7 @@ make_clone() {
   fi | while IFS= read -r -d '' file; do [ -e "$file" ] && printf '%s\0' "$file"; done |
     tar -c --null -T - | tar -x -C "$work/clone" || return 1
   cp -a "$out"/ambulo "$out"/libambulo.* "$work/clone/build/" || return 1
-  cp -a "$out"/obj/src "$out"/obj/flags "$out"/obj/sources "$work/clone/build/obj/" || return 1
+  cp -a "$out"/obj/src "$out"/obj/flags "$out"/obj/libambulo.a.sources "$work/clone/build/obj/" || return 1
   touch "$work/clone/build/.found" "$work/clone/build/.ready-build" "$work/clone/build/.ready-test"
   shorten "$work/clone/models"
 }
