@@ -78,10 +78,11 @@ typedef struct ambulo_device {
   int point_count;           /* joined by monotone cubics (pchip) */
   int foot;                  /* whose stride the clutch or profile follows; -1: none */
   int clutch;                /* 1: engaged during a part of the stride only */
-  int alone;                 /* 1: nothing else drives the coordinate, as of a prosthesis */
-  int image_of;              /* the device whose mirror image this is (`mirror` of a file): a
-                                sensitivity of that device moves both; -1: none */
-  double from, to, ramp;     /* of the clutch, fractions of the stride; from > to: past its end */
+  int alone;             /* 1: nothing else drives its coordinate (of a joint within the body), as
+                            of a prosthesis: rows "passive" keep its tau at 0 */
+  int image_of;          /* the device whose mirror image this is (`mirror` of a file): a
+                            sensitivity of that device moves both; -1: none */
+  double from, to, ramp; /* of the clutch, fractions of the stride; from > to: past its end */
 } ambulo_device;
 
 /* Stiffness 0, damping 0, amount 1, both sides, smoothing 0.01, no clutch; name and place must be

@@ -99,10 +99,29 @@ static void an_acrobat_swings_up(void **state) {
   ambulo_problem_free(p);
 }
 
+/* on as many knots as nodes the spline swings between them, which the look there finds */
+static void what_is_left_between_nodes_is_seen(void **state) {
+  (void)state;
+  static const char *const set[] = {"trajectory.intervals=160", "time.intervals=160"};
+  ambulo_problem *p = NULL;
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_problem_load("models/acrobot_swing.yaml", set, 2, NULL, NULL, &p),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_solve(p, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  assert_string_equal(dense->families[0].violation.family, "passive");
+  assert_string_equal(dense->families[0].violation.subject, "bar");
+  assert_close(dense->families[0].tolerance, 0.01 * 70.0 * 9.81, 1e-9);
+  assert_true(dense->families[0].violation.worst > 100.0);
+  ambulo_result_free(result);
+  ambulo_problem_free(p);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(there_are_as_many_as_the_spline_holds),
                                      cmocka_unit_test(roots_on_the_ground_are_not_passive),
                                      cmocka_unit_test(a_device_may_be_alone),
-                                     cmocka_unit_test(an_acrobat_swings_up)};
+                                     cmocka_unit_test(an_acrobat_swings_up),
+                                     cmocka_unit_test(what_is_left_between_nodes_is_seen)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

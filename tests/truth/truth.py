@@ -137,7 +137,7 @@ def examine(problem, folder, row):
     import motion
     import sole
     import solids
-    import worn
+    import devices
 
     m = motion.Motion(problem, folder)
     row["verdict"] = m.summary["verdict"]
@@ -145,7 +145,7 @@ def examine(problem, folder, row):
     if os.path.exists(folder + ".seconds"):
         with open(folder + ".seconds", encoding="utf-8") as file:
             row["seconds"] = float(file.read())
-    for part in (dynamics, ground, flight, sole, solids, worn, limits):
+    for part in (dynamics, ground, flight, sole, solids, devices, limits):
         for name, cell in part.check(m).items():
             row["cells"][name] = None if cell is None else cell if isinstance(cell, tuple) else (float(cell), "")
 

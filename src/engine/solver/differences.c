@@ -92,9 +92,8 @@ static int same_rows(const ambulo_problem *a, const ambulo_problem *b) {
   if (a->rows != b->rows) return 0;
   for (int r = 0; r < a->rows; r++) {
     const ambulo__table_row *one = &a->table.rows[r], *other = &b->table.rows[r];
-    if (one->kind != other->kind || one->node != other->node || one->before != other->before ||
-        one->relation != other->relation || strcmp(one->subject, other->subject) != 0 ||
-        strcmp(one->detail, other->detail) != 0)
+    if (!ambulo__rows_alike(one, other) || one->kind != other->kind || one->node != other->node ||
+        one->before != other->before || one->relation != other->relation)
       return 0;
   }
   return 1;
