@@ -12,7 +12,7 @@ cat "$folder"/*.h "$folder"/tools/*.h | awk '
   # 0 means something here: success; nothing was judged, no solver ran
   BEGIN { split("ambulo_status ambulo_verdict ambulo_ending", names, " "); for (i in names) listed[names[i]] = 1
     # filled by the library and handed back to it
-    split("ambulo_fault ambulo_sensitivity_list", names, " "); for (i in names) ours[names[i]] = 1
+    split("ambulo_fault ambulo_sensitivity_list ambulo_progress", names, " "); for (i in names) ours[names[i]] = 1
     # one function and its user, for ever (status.h)
     ours["ambulo_allocator"] = 1 }
   { text = text " " $0 "\n" }

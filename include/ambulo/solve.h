@@ -83,6 +83,10 @@ typedef struct ambulo_progress {
   int solve;                   /* with free parameters (parameters.h): the inner solve that this is
                                   of, from 1 on; 0 without */
   double best;                 /* ... their least F so far; NAN before there is one */
+  const ambulo_problem *problem; /* that is solved just now: the caller's, one on another grid, or
+                                    one with other numbers */
+  const double *point;           /* where its solve stands, [its variable_count]; both are valid
+                                    during the call */
 } ambulo_progress;
 
 #define AMBULO_MOST_STARTS 100

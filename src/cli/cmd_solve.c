@@ -4,7 +4,7 @@
  * progress line on terminals; the result is written whatever the verdict, and marked. Until the
  * solve begins nothing is lost, and Ctrl-C and SIGTERM end the program. From then on they stop the
  * solver within a tenth of a second, in set-up and explanation too, and keep the best point; a
- * second one ends the program at once. */
+ * second one ends the program at once. Where the solver is deaf the watch ends it (watch.h). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,6 +16,7 @@
 #include "cli/program.h"
 #include "cli/shipped.h"
 #include "cli/summary.h"
+#include "cli/watch.h"
 
 typedef struct job {
   const ambulo__cli_input *input;
@@ -29,6 +30,7 @@ typedef struct job {
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
   double time_limit;  /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
+  ambulo__cli_watch watch;
   int terminal;     /* 1: show progress */
   char norms[4096]; /* the folder of report.norms */
 } job;
@@ -42,7 +44,8 @@ static void show_solve(const ambulo_progress *p) {
 }
 
 static int show_progress(void *user, const ambulo_progress *p) {
-  const job *j = user;
+  job *j = user;
+  ambulo__cli_watch_note(&j->watch, p);
   if (j->terminal && isnan(p->objective) && p->iteration > 0) {
     /* within an iteration: its line stays */
   } else if (j->terminal && isnan(p->objective)) {
@@ -112,12 +115,19 @@ static ambulo_status load_start(job *j) {
   return ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start);
 }
 
+static ambulo_options solver_options(const job *j) {
+  ambulo_options options = ambulo_problem_options(j->problem);
+  if (j->time_limit >= 0.0) options.time_limit = j->time_limit > 0.0 ? j->time_limit : AMBULO_OFF;
+  return options;
+}
+
 static ambulo_status solve_parameters(job *j, const ambulo_options *options) {
   ambulo_problem *best = NULL;
   ambulo_parameters parameters = ambulo_problem_parameters(j->problem);
   parameters.start = j->start;
   ambulo_status status = ambulo_solve_parameters(j->problem, &parameters, options, NULL,
                                                  j->diagnostics, &best, &j->result);
+  ambulo__cli_watch_end(&j->watch);
   if (status) return status;
   ambulo_problem_free(j->problem);
   j->problem = best;
@@ -128,28 +138,11 @@ static ambulo_status solve_refined(job *j, const ambulo_options *options) {
   ambulo_problem *finer = NULL;
   ambulo_status status =
       ambulo_solve_refined(j->problem, options, j->start, NULL, j->diagnostics, &finer, &j->result);
+  ambulo__cli_watch_end(&j->watch);
   if (status || !finer) return status;
   j->coarser = j->problem;
   j->problem = finer;
   return AMBULO_OK;
-}
-
-static ambulo_status solve(job *j) {
-  ambulo_options options = ambulo_problem_options(j->problem);
-  if (j->time_limit >= 0.0) options.time_limit = j->time_limit > 0.0 ? j->time_limit : AMBULO_OFF;
-  options.progress = show_progress;
-  options.user = j;
-  ambulo__cli_catch_stops(1);
-  ambulo_status status;
-  if (ambulo_problem_parameters(j->problem).count > 0) {
-    status = solve_parameters(j, &options);
-  } else if (options.refine) {
-    status = solve_refined(j, &options);
-  } else {
-    status = ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
-  }
-  if (j->terminal) fprintf(stderr, "\r\033[K");
-  return status;
 }
 
 static ambulo_status print_json(const job *j) {
@@ -187,6 +180,96 @@ static const char *in_table(const job *j) {
   return ambulo__cli_is_worker() && dense && dense->summary[0] ? dense->summary : NULL;
 }
 
+/* writes and prints what there is */
+static int finish(job *j) {
+  ambulo_status status =
+      ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
+  int code = ambulo__cli_diagnostics_but(j->diagnostics, status, j->directory, in_table(j));
+  ambulo_status printed = print_outcome(j, !status);
+  if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
+  return code ? code : verdict_exit_code(j->result);
+}
+
+/* A thread still works on the problem, the messages and the rest: they are left as they are. */
+static void end_deaf(job *j, ambulo_status status) {
+  int code =
+      status ? ambulo__cli_diagnostics(j->diagnostics, status, j->input->arguments[0]) : finish(j);
+  _exit(ambulo__cli_finish(code));
+}
+
+static job beside(const job *deaf) {
+  job j = *deaf;
+  j.sensitivities = NULL;
+  j.diagnostics = ambulo_diagnostics_create(NULL);
+  if (j.terminal) fprintf(stderr, "\r\033[K");
+  return j;
+}
+
+static int holds_rows(const job *j, const ambulo_result *result) {
+  const ambulo_violation *v = &ambulo_result_audit(result)->violation;
+  return v->worst <= solver_options(j).feasibility_tolerance * v->size;
+}
+
+/* a start that held its rows may be better than what the solver has made of it */
+static int is_better(const job *j, const ambulo_result *start, const ambulo_result *found) {
+  if (!holds_rows(j, start)) return 0;
+  return !holds_rows(j, found) || ambulo_result_objective(start) < ambulo_result_objective(found);
+}
+
+/* with the point that was shown last, or the start */
+static void give_up_solve(void *user, const ambulo_progress *last, ambulo_ending ending) {
+  job j = beside(user);
+  ambulo_options options = solver_options(&j);
+  ambulo_progress progress = *last;
+  ambulo_result *found = NULL;
+  progress.point = j.start;
+  ambulo_status status =
+      ambulo_audit_progress(j.problem, &options, &progress, ending, NULL, j.diagnostics, &j.result);
+  if (!status && last->point)
+    status = ambulo_audit_progress(j.problem, &options, last, ending, NULL, j.diagnostics, &found);
+  if (found && !(j.start && is_better(&j, j.result, found))) j.result = found;
+  end_deaf(&j, status);
+}
+
+/* with the result, whose sensitivities are not known */
+static void give_up_sensitivities(void *user, const ambulo_progress *last, ambulo_ending ending) {
+  job j = beside(user);
+  (void)last;
+  (void)ending;
+  end_deaf(&j, AMBULO_OK);
+}
+
+static ambulo_status solve(job *j) {
+  ambulo_options options = solver_options(j);
+  options.progress = show_progress;
+  options.user = j;
+  ambulo__cli_catch_stops(1);
+  j->watch = (ambulo__cli_watch){
+      .give_up = give_up_solve, .user = j, .problem = j->problem, .limit = options.time_limit};
+  ambulo__cli_watch_begin(&j->watch);
+  ambulo_status status;
+  if (ambulo_problem_parameters(j->problem).count > 0) {
+    status = solve_parameters(j, &options);
+  } else if (options.refine) {
+    status = solve_refined(j, &options);
+  } else {
+    status = ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
+    ambulo__cli_watch_end(&j->watch);
+  }
+  if (j->terminal) fprintf(stderr, "\r\033[K");
+  return status;
+}
+
+static ambulo_status find_sensitivities(job *j) {
+  j->watch = (ambulo__cli_watch){
+      .give_up = give_up_sensitivities, .user = j, .problem = j->problem, .limit = AMBULO_OFF};
+  ambulo__cli_watch_begin(&j->watch);
+  ambulo_status status = ambulo_sensitivities(j->problem, j->result, NULL, &j->sensitivities);
+  ambulo__cli_watch_end(&j->watch);
+  j->report.sensitivities = j->sensitivities;
+  return status;
+}
+
 static int run_job(job *j) {
   int code = read_options(j);
   if (code) return code;
@@ -196,16 +279,9 @@ static int run_job(job *j) {
   status = ambulo__cli_load_problem(j->input, file, j->diagnostics, &j->problem);
   if (!status) status = load_start(j);
   if (!status) status = solve(j);
-  if (!status && ambulo__cli_flag(j->input, "sensitivities"))
-    status = ambulo_sensitivities(j->problem, j->result, NULL, &j->sensitivities);
-  j->report.sensitivities = j->sensitivities;
+  if (!status && ambulo__cli_flag(j->input, "sensitivities")) status = find_sensitivities(j);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);
-  status =
-      ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
-  code = ambulo__cli_diagnostics_but(j->diagnostics, status, j->directory, in_table(j));
-  ambulo_status printed = print_outcome(j, !status);
-  if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
-  return code ? code : verdict_exit_code(j->result);
+  return finish(j);
 }
 
 static int run(const ambulo__cli_input *input) {

@@ -83,6 +83,12 @@ static void objects_are_not_made_of_nothing(void **state) {
   REFUSED(ambulo_solve(problem, NULL, NULL, NULL, NULL, NULL));
   REFUSED(ambulo_audit_point(problem, NULL, NULL, NULL, NULL, &result));
   REFUSED(ambulo_audit_point(NULL, NULL, o->x, NULL, NULL, &result));
+  const ambulo_progress last = {.point = o->x};
+  const ambulo_ending ending = AMBULO_ENDING_TIME;
+  REFUSED(ambulo_audit_progress(NULL, NULL, &last, ending, NULL, NULL, &result));
+  REFUSED(ambulo_audit_progress(problem, NULL, NULL, ending, NULL, NULL, &result));
+  REFUSED(ambulo_audit_progress(problem, NULL, &last, ending, NULL, NULL, NULL));
+  REFUSED(ambulo_audit_progress(problem, NULL, &last, AMBULO_ENDING_NONE, NULL, NULL, &result));
   assert_ptr_equal(model, o->model);
   assert_ptr_equal(problem, o->problem);
   assert_ptr_equal(workspace, o->workspace);

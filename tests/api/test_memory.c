@@ -232,6 +232,15 @@ static ambulo_status audit(const ambulo_allocator *a, ambulo_diagnostics *list) 
   return status;
 }
 
+static ambulo_status audit_progress(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  ambulo_result *result = NULL;
+  const ambulo_progress last = {.point = ambulo_result_x(w.walk.result)};
+  ambulo_status status =
+      ambulo_audit_progress(w.walk.problem, NULL, &last, AMBULO_ENDING_CALLER, a, list, &result);
+  ambulo_result_free(result);
+  return status;
+}
+
 static ambulo_status inverse(const ambulo_allocator *a, ambulo_diagnostics *list) {
   char *text = NULL;
   ambulo_status status = ambulo_inverse_dynamics_motion(
@@ -294,6 +303,7 @@ static void solves(void **state) {
   try_all("ambulo_solve in vain", solve_in_vain);
   ambulo_problem_free(small);
   try_all("ambulo_audit_point", audit);
+  try_all("ambulo_audit_progress", audit_progress);
 }
 
 static void motions(void **state) {

@@ -52,6 +52,17 @@ typedef struct ambulo_versions {
 } ambulo_versions;
 AMBULO_API void ambulo_versions_get(ambulo_versions *versions);
 
+/* The result of a solve of `problem` that its caller does not wait for: NLopt's SLSQP, say, is deep
+ * in a dense matrix and asks nobody. `last` is a copy of its last progress, with a copy of its
+ * point (NULL: the start pose). What a limit of time or a stop of the caller would have made of
+ * that point: judged by its values alone, without derivatives. May be called in another thread
+ * while the solve goes on. `ending`: AMBULO_ENDING_TIME or AMBULO_ENDING_CALLER. E_ARGUMENT,
+ * E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_audit_progress(
+    const ambulo_problem *problem, const ambulo_options *options, const ambulo_progress *last,
+    ambulo_ending ending, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+    ambulo_result **result);
+
 #ifdef __cplusplus
 }
 #endif

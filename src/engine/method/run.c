@@ -49,6 +49,8 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
       .seconds_left = AMBULO_OFF,
       .stage = run->stage,
       .best = NAN,
+      .problem = run->problem,
+      .point = run->point,
   };
   if (o->progress(o->user, &progress)) stop(run, AMBULO_ENDING_CALLER);
   return run->stopped;

@@ -20,7 +20,9 @@ typedef struct ambulo__run {
   const ambulo_options *options;
   double started; /* s, monotonic clock */
   double stopped_at, polled_at;
-  const char *stage; /* what is being done, for the caller's callback */
+  const char *stage;             /* what is being done, for the caller's callback */
+  const ambulo_problem *problem; /* that is solved, and where its solve stands; for the same */
+  const double *point;
   int evaluations, iterations;
   int stopped;          /* a limit was met or the caller said stop */
   ambulo_ending ending; /* of the run while `stopped`, else of the method that ran last */

@@ -99,6 +99,8 @@ static void keep_best(direct *d) {
   d->best_violation = violation;
   d->best_objective = objective;
   memcpy(d->best_x, d->x, bytes_of(d));
+  d->engine->run->point = d->best_x;
+  (void)ambulo__run_progress(d->engine->run, objective, violation); /* NLopt may be long silent */
 }
 
 /* evaluates at w; 0 when the values are finite. Points where they are not, or where gradients are
@@ -239,6 +241,7 @@ static ambulo_status calls(direct *d, double *x) {
   }
   if (ending) ambulo__run_end(run, ending);
   if (!status && d->best_violation < HUGE_VAL) memcpy(x, d->best_x, bytes_of(d));
+  run->point = x;
   return status;
 }
 

@@ -359,6 +359,8 @@ ambulo_status ambulo__session_begin(ambulo__session *s, const ambulo_options *op
   s->run.history->shown.tolerance = options->feasibility_tolerance;
   ambulo__start_pose(s->problem, s->result->x);
   if (start) memcpy(s->result->x, start, (size_t)s->problem->variables * sizeof *start);
+  s->run.problem = s->problem;
+  s->run.point = s->result->x;
   status = check_start(s);
   if (status) return status;
   status = ambulo__engine_create(s->problem, s->result->x, s->allocator, &s->run, s->diagnostics,
