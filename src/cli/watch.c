@@ -2,7 +2,7 @@
  *
  * Work is time of the processor: on an idle one a second of it is a second, on a busy one the
  * solver has had the second that it needs to end well. Whatever stands still for ten seconds is
- * given up too. Once give_up was called nobody gets the lock again. The thread of the solve then
+ * ended too. Once give_up was called nobody gets the lock again. The thread of the solve then
  * stops at its next progress, and does not take apart what is being written. */
 #include "cli/watch.h"
 
