@@ -82,6 +82,6 @@ class Parameters(Case):
 
             with self.assertRaisesRegex(ZeroDivisionError, "mine"):
                 problem.solve_parameters({KEY: (-5, 5)}, at=at)
-            with self.assertRaisesRegex(AttributeError, "_handle"):
+            with self.assertRaisesRegex(TypeError, "expected a Problem"):
                 problem.solve_parameters({KEY: (-5, 5)}, at=lambda values: None)
             problem.solve()

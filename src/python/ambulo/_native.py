@@ -2,7 +2,8 @@
 
 Every wrapper of an object of the library holds a Handle; whatever else that object needs (the model
 of a problem, the problem of a result, functions of the caller) is held by the Handle in turn, and
-lives as long.
+lives as long. So does what a call was given: ``close()`` may come from a callback of that call, or
+from another thread, and frees when the call is back.
 """
 
 import json
@@ -39,34 +40,64 @@ def text_of(pointer):
 
 
 class Handle:
-    """A pointer with the function that frees it. Freed when nothing refers to it any more."""
+    """A pointer and what it needs. ``pointer`` itself frees what it points to when nothing refers to
+    it any more, and an argument of a call that is under way is referred to."""
 
-    __slots__ = ("pointer", "free", "needs")
+    __slots__ = ("pointer", "needs")
 
     def __init__(self, pointer, free, *needs):
-        self.pointer, self.free, self.needs = pointer, free, needs
+        def destroy(raw, free=free, needs=needs, _library=lib):
+            if all(is_there(need) for need in needs):  # else it may look at what is gone: stays
+                free(raw)
 
-    def __del__(self):
+        self.pointer, self.needs = ffi.gc(pointer, destroy), needs
+
+    def give(self):
+        """The pointer, which is the library's to free from now on."""
         pointer, self.pointer = self.pointer, None
-        if pointer:
-            self.free(pointer)
-        self.needs = ()
+        ffi.gc(pointer, None)
+        return pointer
+
+
+def is_there(need):
+    """Whether a Handle, and all that it needs, was not given away."""
+    if not isinstance(need, Handle):
+        return True
+    return need.pointer is not None and all(is_there(other) for other in need.needs)
 
 
 class Owner:
     """An object of the library: freed by ``close()``, by the end of a ``with`` block, or when it is
-    collected, whichever comes first. What was made from it (results of a problem) stays usable."""
+    collected, whichever comes first. What was made from it (results of a problem) stays usable, and
+    so does the object itself in calls that are under way."""
 
     _handle: Optional[Handle] = None
 
     @property
-    def _pointer(self):
-        if self._handle is None:
+    def _held(self):
+        """The handle: a function that calls the library more than once holds it meanwhile."""
+        handle = self._handle
+        if handle is None:
             raise ValueError(f"this {type(self).__name__} is closed")
-        return self._handle.pointer
+        if not is_there(handle):
+            raise ValueError(f"this {type(self).__name__} belongs to a problem that was handed over, "
+                             f"by the function that makes problems for solve_parameters")
+        return handle
+
+    @property
+    def _pointer(self):
+        return self._held.pointer
+
+    def _read(self, convert, function, *arguments):
+        """What `function` of the library returns of the object, converted while that is there."""
+        pointer = self._pointer
+        found = convert(function(pointer, *arguments))
+        del pointer
+        return found
 
     def close(self):
-        """Gives the object up; memory is freed once nothing that was made from it is left."""
+        """Gives the object up; memory is freed once nothing that was made from it is left, and no
+        call of it is under way."""
         self._handle = None
 
     def __enter__(self):
@@ -74,6 +105,12 @@ class Owner:
 
     def __exit__(self, *_):
         self.close()
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError(f"a {type(self).__name__} is memory of the library: it can be neither pickled "
+                        f"nor copied; {self._instead}")
+
+    _instead = "load or make it again from its file or its records"
 
 
 # ------------------------------------------------------------------- messages

@@ -63,12 +63,12 @@ class Batch(Owner):
 
     @property
     def name(self) -> str:
-        return text_of(lib.ambulo_sweep_name(self._pointer))
+        return self._read(text_of, lib.ambulo_sweep_name)
 
     @property
     def base(self) -> Path:
         """The base problem's file."""
-        return Path(text_of(lib.ambulo_sweep_base(self._pointer)))
+        return Path(self._read(text_of, lib.ambulo_sweep_base))
 
     @property
     def axes(self) -> List[str]:
@@ -87,10 +87,10 @@ class Batch(Owner):
 
     @property
     def cases(self) -> List[records.Case]:
-        struct, found = ffi.new("ambulo_case *"), []
+        struct, found, pointer = ffi.new("ambulo_case *"), [], self._pointer
         with Call() as call:
-            for i in range(len(self)):
-                call(lib.ambulo_sweep_case(self._pointer, i, struct))
+            for i in range(lib.ambulo_sweep_case_count(pointer)):
+                call(lib.ambulo_sweep_case(pointer, i, struct))
                 found.append(from_c(records.Case, struct))
         return found
 
@@ -126,14 +126,14 @@ class Batch(Owner):
         Cases are run by the program ``ambulo`` of the package, each in a process of its own, so
         that terms in Python have no place here. The same call goes on where a run was stopped.
         """
-        carrier = Carrier()
+        carrier, batch = Carrier(), Batch(self._held)
         watch = Watch(carrier, records.BatchOptions(workers=workers, **options), progress, _show,
                       records.BatchProgress, interrupt)
         with Call() as call:
-            status = lib.ambulo_batch_run(self._pointer, path_of(folder), watch.options, NULL,
+            status = lib.ambulo_batch_run(batch._pointer, path_of(folder), watch.options, NULL,
                                           call.messages, NULL)
             watch.finish(call, status, "the same call goes on")
-        study = Study(folder, self)
+        study = Study(folder, batch)
         study.collect()
         return study
 

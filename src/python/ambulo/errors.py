@@ -34,9 +34,12 @@ class AmbuloError(Exception):
     """
 
     def __init__(self, status: str, text: str, messages: Sequence[Message] = ()):
-        self.status, self.messages = status, list(messages)
+        self.status, self.messages, self._made_of = status, list(messages), (status, text, messages)
         errors = [message.text for message in self.messages if message.severity == "error"]
         super().__init__("\n".join(errors) if errors else f"{status}: {text}")
+
+    def __reduce__(self):
+        return type(self), self._made_of
 
 
 class AmbuloWarning(UserWarning):

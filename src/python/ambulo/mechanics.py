@@ -1,5 +1,6 @@
 """Inverse dynamics of given motions, on arrays."""
 
+import threading
 from typing import NamedTuple, Optional
 
 import numpy
@@ -57,7 +58,7 @@ def _struct(name, memory):
 
 
 class Mechanics(Owner):
-    """Inverse dynamics of a model, with its scratch memory: for one thread at a time.
+    """Inverse dynamics of a model, with its scratch memory: threads take turns.
 
     >>> with ambulo.Mechanics(model) as mechanics:
     ...     tau = mechanics.inverse_dynamics(q, qd, qdd).tau
@@ -68,13 +69,14 @@ class Mechanics(Owner):
     """
 
     def __init__(self, model: Model):
-        out = ffi.new("ambulo_mechanics **")
+        out, body = ffi.new("ambulo_mechanics **"), model._held
         with Call() as call:
-            call(lib.ambulo_mechanics_create(model._pointer, NULL, out))
-        self._handle = Handle(out[0], lib.ambulo_mechanics_free, model._handle)
+            call(lib.ambulo_mechanics_create(body.pointer, NULL, out))
+        self._handle = Handle(out[0], lib.ambulo_mechanics_free, body)
+        self._lock = threading.Lock()
         self.model = model
-        self._coordinates = lib.ambulo_model_coordinate_count(model._pointer)
-        self._points = lib.ambulo_model_point_count(model._pointer)
+        self._coordinates = lib.ambulo_model_coordinate_count(body.pointer)
+        self._points = lib.ambulo_model_point_count(body.pointer)
 
     def _motion(self, q, qd, qdd):
         q = numpy.ascontiguousarray(q, dtype=float)
@@ -92,7 +94,7 @@ class Mechanics(Owner):
         points = numpy.empty((n, self._points, 3))
         memory = {name: doubles(array) for name, array in
                   (("tau", tau), ("wrench", wrench), ("points", points))}
-        with Call() as call:
+        with self._lock, Call() as call:
             call(lib.ambulo_mechanics_inverse_dynamics(
                 self._pointer, n, doubles(q), doubles(qd), doubles(qdd),
                 _struct("ambulo_outputs", memory)))
@@ -111,7 +113,7 @@ class Mechanics(Owner):
                        (point_weights, (n, self._points, 3), "point_weights"))]
         found = Gradient(*(numpy.empty_like(q) for _ in range(3)))
         memory = [doubles(array) for array in (*weights, *found)]
-        with Call() as call:
+        with self._lock, Call() as call:
             call(lib.ambulo_mechanics_gradient(
                 self._pointer, n, doubles(q), doubles(qd), doubles(qdd),
                 _struct("ambulo_output_weights", dict(zip(("tau", "wrench", "points"), memory))),
@@ -126,7 +128,7 @@ class Mechanics(Owner):
         found = Jacobians(*(numpy.empty(shape) for shape in shapes))
         memory = dict(zip(Jacobians._fields, map(doubles, found)))
         struct = _struct("ambulo_jacobians", memory)
-        with Call() as call:
+        with self._lock, Call() as call:
             call(lib.ambulo_mechanics_jacobians(self._pointer, n, doubles(q), doubles(qd),
                                                 doubles(qdd), struct))
         return found

@@ -114,15 +114,16 @@ class Model(Owner):
     # ------------------------------------------------------------------ queries
 
     def _list(self, what: str, kind) -> List[Any]:
+        pointer = self._pointer
         if what not in self._lists:
-            count = getattr(lib, f"ambulo_model_{what}_count")(self._pointer)
+            count = getattr(lib, f"ambulo_model_{what}_count")(pointer)
             get = getattr(lib, f"ambulo_model_{what}")
-            self._lists[what] = [from_c(kind, get(self._pointer, i)) for i in range(count)]
+            self._lists[what] = [from_c(kind, get(pointer, i)) for i in range(count)]
         return list(self._lists[what])
 
     @property
     def name(self) -> Optional[str]:
-        return text_of(lib.ambulo_model_name(self._pointer))
+        return self._read(text_of, lib.ambulo_model_name)
 
     @property
     def links(self) -> List[records.Link]:
@@ -178,7 +179,8 @@ class Model(Owner):
         return lib.ambulo_model_stature(self._pointer)
 
     def _direction(self, which: str) -> numpy.ndarray:
-        return numpy.array(list(getattr(lib, f"ambulo_model_{which}")(self._pointer)[0:3]))
+        return self._read(lambda found: numpy.array(list(found[0:3])),
+                          getattr(lib, f"ambulo_model_{which}"))
 
     @property
     def gravity(self) -> numpy.ndarray:

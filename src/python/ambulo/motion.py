@@ -4,7 +4,7 @@ from typing import List, Tuple
 
 import numpy
 
-from ._native import Call, lib
+from ._native import lib
 from .mechanics import doubles
 from .records import usual_struct
 
@@ -168,7 +168,5 @@ def motion_of(problem, x, times) -> Motion:
         if array.size:
             memory.append(doubles(array))
             setattr(struct, name, memory[-1])
-    with Call() as call:
-        problem._checked(call, lib.ambulo_problem_motion(
-            problem._pointer, problem._workspace(), doubles(x), len(times), doubles(times), struct))
+    problem._asked(lib.ambulo_problem_motion, doubles(x), len(times), doubles(times), struct)
     return made

@@ -48,7 +48,7 @@ class Problem(Owner):
 
     def _twin(self) -> "Problem":
         """The same for another owner: what results hold, so that this one may be closed."""
-        return Problem(self._handle)
+        return Problem(self._held)
 
     def close(self):
         super().close()
@@ -99,14 +99,15 @@ class Problem(Owner):
         if "breakpoints" in fields and fields["breakpoints"] is not None:
             fields.setdefault("spline_intervals", len(fields["breakpoints"]) - 1)
         definition = records.ProblemDefinition(**fields)
+        body = model._held
         carrier, functions = _carrier(model, definition.intervals, definition.spline_intervals,
                                       len(definition.devices or ()))
         struct = carrier.new(definition)
-        struct.model = model._pointer
+        struct.model = body.pointer
         out = ffi.new("ambulo_problem **")
         with Call() as call:
             call(lib.ambulo_problem_create(struct, NULL, call.messages, out))
-        return cls(Handle(out[0], lib.ambulo_problem_free, model._handle, functions))
+        return cls(Handle(out[0], lib.ambulo_problem_free, body, functions))
 
     def extend(self, terms: Sequence[records.Term] = (),
                user_rows: Sequence[records.UserRow] = ()) -> "Problem":
@@ -119,24 +120,26 @@ class Problem(Owner):
         ``ambulo.callbacks`` says what such a function is. Options and free parameters of the file
         go along.
         """
+        held = self._held
         carrier, functions = _carrier(
             self.model, self.node_count - 1, 0, lib.ambulo_problem_device_count(self._pointer))
         struct = carrier.new(records.Extension(terms=list(terms), user_rows=list(user_rows)))
         out = ffi.new("ambulo_problem **")
         with Call() as call:
-            call(lib.ambulo_problem_extend(self._pointer, struct, NULL, call.messages, out))
-        return Problem(Handle(out[0], lib.ambulo_problem_free, self._handle, functions))
+            call(lib.ambulo_problem_extend(held.pointer, struct, NULL, call.messages, out))
+        return Problem(Handle(out[0], lib.ambulo_problem_free, held, functions))
 
     # ------------------------------------------------------------------ queries
 
     @property
     def name(self) -> Optional[str]:
-        return text_of(lib.ambulo_problem_name(self._pointer))
+        return self._read(text_of, lib.ambulo_problem_name)
 
     @property
     def model(self) -> Model:
         """The body; with points of capsules that rows are about behind its own."""
-        return Model(Handle(lib.ambulo_problem_model(self._pointer), lambda _: None, self._handle))
+        held = self._held
+        return Model(Handle(lib.ambulo_problem_model(held.pointer), lambda _: None, held))
 
     @property
     def duration(self) -> float:
@@ -199,10 +202,10 @@ class Problem(Owner):
 
     def rows(self) -> List[records.Row]:
         """What each row is: family, subject, unit, time; in the order of their values."""
-        struct, found = ffi.new("ambulo_row *"), []
+        struct, found, pointer = ffi.new("ambulo_row *"), [], self._pointer
         with Call() as call:
-            for i in range(self.row_count):
-                call(lib.ambulo_problem_row(self._pointer, i, struct))
+            for i in range(lib.ambulo_problem_row_count(pointer)):
+                call(lib.ambulo_problem_row(pointer, i, struct))
                 found.append(from_c(records.Row, struct))
         return found
 
@@ -228,8 +231,8 @@ class Problem(Owner):
 
     def options(self, **settings) -> records.Options:
         """What the file asks of the solver, or the defaults; changed by ``settings``."""
-        struct = usual_struct("ambulo_options")
-        lib.ambulo_problem_options_fill(self._pointer, struct, ffi.sizeof("ambulo_options"))
+        struct, pointer = usual_struct("ambulo_options"), self._pointer
+        lib.ambulo_problem_options_fill(pointer, struct, ffi.sizeof("ambulo_options"))
         options = from_c(records.Options, struct)
         for name, value in settings.items():
             setattr(options, name, value)
@@ -242,34 +245,43 @@ class Problem(Owner):
         return array_of(x, (self.variable_count,), "x")
 
     def _workspace(self):
-        """Of this thread."""
+        """Of this thread: a handle."""
         held = getattr(self._workspaces, "handle", None)
         if held is None:
-            out = ffi.new("ambulo_workspace **")
+            out, problem = ffi.new("ambulo_workspace **"), self._held
             with Call() as call:
-                call(lib.ambulo_workspace_create(self._pointer, NULL, out))
-            held = self._workspaces.handle = Handle(out[0], lib.ambulo_workspace_free, self._handle)
-        return held.pointer
+                call(lib.ambulo_workspace_create(problem.pointer, NULL, out))
+            held = self._workspaces.handle = Handle(out[0], lib.ambulo_workspace_free, problem)
+        return held
 
-    def _checked(self, call, status):
-        """As `call`, of calls that ask functions of the caller: their exceptions, and what the
-        workspace knows of a value that is not finite."""
-        raise_pending()
-        if status == records.Status.E_NUMERIC:
-            text = ffi.new("char[]", 1000)
-            lib.ambulo_fault_text(lib.ambulo_workspace_fault(self._workspace()), text, 1000)
-            raise AmbuloError("E_NUMERIC", text_of(text))
-        call(status)
+    def _asked(self, function, *arguments):
+        """A function of the library that asks functions of the caller: their exceptions come
+        through, and so does what the workspace knows of a value that is not finite. One of those
+        functions may close the problem; evaluate it once more it may not."""
+        problem, workspace = self._held, self._workspace()
+        if getattr(self._workspaces, "busy", False):
+            raise ValueError("a function of the caller evaluates the problem that it is a part of")
+        busy = self._workspaces
+        busy.busy = True
+        try:
+            with Call() as call:
+                status = function(problem.pointer, workspace.pointer, *arguments)
+                raise_pending()
+                if status == records.Status.E_NUMERIC:
+                    text = ffi.new("char[]", 1000)
+                    lib.ambulo_fault_text(lib.ambulo_workspace_fault(workspace.pointer), text, 1000)
+                    raise AmbuloError("E_NUMERIC", text_of(text))
+                call(status)
+        finally:
+            busy.busy = False
 
     def evaluate(self, x) -> Evaluation:
         """Objective, its terms and all rows at x."""
         x, objective = self._point(x), ffi.new("double *")
         terms = numpy.empty(lib.ambulo_problem_term_count(self._pointer))
         rows = numpy.empty(self.row_count)
-        with Call() as call:
-            self._checked(call, lib.ambulo_problem_evaluate(
-                self._pointer, self._workspace(), doubles(x), objective, doubles(terms),
-                doubles(rows)))
+        self._asked(lib.ambulo_problem_evaluate, doubles(x), objective, doubles(terms),
+                    doubles(rows))
         return Evaluation(objective[0], terms, rows)
 
     def gradient(self, x, objective_weight: float = 1.0, row_weights=None) -> numpy.ndarray:
@@ -278,21 +290,17 @@ class Problem(Owner):
         x = self._point(x)
         if row_weights is not None:
             row_weights = array_of(row_weights, (self.row_count,), "row_weights")
-        found = numpy.empty_like(x)
-        with Call() as call:
-            self._checked(call, lib.ambulo_problem_gradient(
-                self._pointer, self._workspace(), doubles(x), objective_weight,
-                doubles(row_weights), doubles(found)))
-        return found.reshape(self.control_point_count, -1)
+        found, points = numpy.empty_like(x), self.control_point_count
+        self._asked(lib.ambulo_problem_gradient, doubles(x), objective_weight,
+                    doubles(row_weights), doubles(found))
+        return found.reshape(points, -1)
 
     def row_gradient(self, x, row: int) -> numpy.ndarray:
         """Gradient [control_points][d] of one row."""
         x = self._point(x)
-        found = numpy.empty_like(x)
-        with Call() as call:
-            self._checked(call, lib.ambulo_problem_row_gradient(
-                self._pointer, self._workspace(), doubles(x), row, doubles(found)))
-        return found.reshape(self.control_point_count, -1)
+        found, points = numpy.empty_like(x), self.control_point_count
+        self._asked(lib.ambulo_problem_row_gradient, doubles(x), row, doubles(found))
+        return found.reshape(points, -1)
 
     def motion(self, x, times=None) -> Motion:
         """The motion at ``times`` in [0, duration] (None: the time nodes)."""
@@ -304,9 +312,7 @@ class Problem(Owner):
         and each term: functions of your own are among them."""
         x, room, count = self._point(x), 400, ffi.new("int *")
         errors = ffi.new("ambulo_derivative_error[]", room)
-        with Call() as call:
-            self._checked(call, lib.ambulo_problem_check_derivatives(
-                self._pointer, self._workspace(), doubles(x), step, errors, room, count))
+        self._asked(lib.ambulo_problem_check_derivatives, doubles(x), step, errors, room, count)
         return [from_c(records.DerivativeError, errors[i]) for i in range(min(room, count[0]))]
 
     def transfer(self, x, to: "Problem") -> numpy.ndarray:
@@ -360,8 +366,8 @@ class Problem(Owner):
     @property
     def parameters(self) -> records.Parameters:
         """The free parameters of the problem's file; ``items`` is empty without."""
-        struct = usual_struct("ambulo_parameters")
-        lib.ambulo_problem_parameters_fill(self._pointer, struct)
+        struct, pointer = usual_struct("ambulo_parameters"), self._pointer
+        lib.ambulo_problem_parameters_fill(pointer, struct)
         return from_c(records.Parameters, struct)
 
     def solve_parameters(self, parameters=None, *, at: Optional[Callable] = None, start=None,
@@ -383,10 +389,10 @@ class Problem(Owner):
     def at(self, values) -> "Problem":
         """The problem of a file with its free parameters at values, SI and rad."""
         values = array_of(values, (len(self.parameters.items),), "values")
-        out = ffi.new("ambulo_problem **")
+        out, held = ffi.new("ambulo_problem **"), self._held
         with Call() as call:
-            call(lib.ambulo_problem_at(self._pointer, doubles(values), NULL, call.messages, out))
-        return Problem(Handle(out[0], lib.ambulo_problem_free, self._handle))
+            call(lib.ambulo_problem_at(held.pointer, doubles(values), NULL, call.messages, out))
+        return Problem(Handle(out[0], lib.ambulo_problem_free, held))
 
     def audit(self, x, *, options=None, **settings) -> "Result":
         """Judges given unknowns as if a solver had returned them: a Result."""

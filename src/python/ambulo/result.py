@@ -22,8 +22,10 @@ class Result(Owner):
     to, which with free parameters is the one at their best values.
     """
 
+    _instead = "write it with write(), or keep what it says: x, summary(), motion()"
+
     def __init__(self, problem, pointer, messages: List[Message]):
-        self._handle = Handle(pointer, lib.ambulo_result_free, problem._handle)
+        self._handle = Handle(pointer, lib.ambulo_result_free, problem._held)
         self.problem = problem._twin()
         self.messages = messages
 
@@ -39,8 +41,9 @@ class Result(Owner):
         """Whether the motion can be used: verdict optimal or feasible."""
         return bool(lib.ambulo_verdict_is_solution(lib.ambulo_result_verdict(self._pointer)))
 
-    def _array(self, pointer, *shape) -> numpy.ndarray:
-        size = int(numpy.prod(shape))
+    def _array(self, function, *shape) -> numpy.ndarray:
+        size, held = int(numpy.prod(shape)), self._held
+        pointer = function(held.pointer)
         if pointer == NULL or not size:
             return numpy.full(shape, numpy.nan)
         return numpy.frombuffer(ffi.buffer(pointer, 8 * size), dtype=float).reshape(shape).copy()
@@ -49,7 +52,7 @@ class Result(Owner):
     def x(self) -> numpy.ndarray:
         """The unknowns [control_points][d]."""
         count = self.problem.control_point_count
-        return self._array(lib.ambulo_result_x(self._pointer), count,
+        return self._array(lib.ambulo_result_x, count,
                            self.problem.variable_count // count)
 
     @property
@@ -60,7 +63,7 @@ class Result(Owner):
     def terms(self) -> Dict[str, float]:
         """Terms of the objective by name, weighted; of several of one name the sum."""
         names = self.problem.term_names
-        values = self._array(lib.ambulo_result_terms(self._pointer), len(names))
+        values = self._array(lib.ambulo_result_terms, len(names))
         found: Dict[str, float] = {}
         for name, value in zip(names, values):
             found[name] = found.get(name, 0.0) + float(value)
@@ -69,12 +72,12 @@ class Result(Owner):
     @property
     def rows(self) -> numpy.ndarray:
         """Values of the rows, each in its unit; ``problem.rows()`` describes them."""
-        return self._array(lib.ambulo_result_rows(self._pointer), self.problem.row_count)
+        return self._array(lib.ambulo_result_rows, self.problem.row_count)
 
     @property
     def multipliers(self) -> numpy.ndarray:
         """[row_count]: of the Lagrangian f - sum of multiplier times row."""
-        return self._array(lib.ambulo_result_multipliers(self._pointer), self.problem.row_count)
+        return self._array(lib.ambulo_result_multipliers, self.problem.row_count)
 
     def motion(self, times=None) -> Motion:
         """The motion at ``times`` in [0, duration]; None: the time nodes; a whole number: so many
@@ -85,17 +88,17 @@ class Result(Owner):
 
     # --------------------------------------------------------------- how good it is
 
-    def _optional(self, pointer, kind):
-        return None if pointer == NULL else from_c(kind, pointer)
+    def _record(self, kind, function):
+        return self._read(lambda found: None if found == NULL else from_c(kind, found), function)
 
     @property
     def audit(self) -> records.Audit:
-        return from_c(records.Audit, lib.ambulo_result_audit(self._pointer))
+        return self._record(records.Audit, lib.ambulo_result_audit)
 
     @property
     def dense_audit(self) -> Optional[records.DenseAudit]:
         """What happens between the nodes; None: nothing is known."""
-        return self._optional(lib.ambulo_result_dense_audit(self._pointer), records.DenseAudit)
+        return self._record(records.DenseAudit, lib.ambulo_result_dense_audit)
 
     @property
     def families(self) -> List[records.Violation]:
@@ -107,7 +110,7 @@ class Result(Owner):
     @property
     def explanation(self) -> Optional[records.Explanation]:
         """Why there is no solution; None where there is one."""
-        return self._optional(lib.ambulo_result_explanation(self._pointer), records.Explanation)
+        return self._record(records.Explanation, lib.ambulo_result_explanation)
 
     @property
     def iterations(self) -> int:
@@ -120,11 +123,11 @@ class Result(Owner):
     @property
     def timing(self) -> records.Timing:
         """Wall time and where it went, s."""
-        return from_c(records.Timing, lib.ambulo_result_timing(self._pointer))
+        return self._record(records.Timing, lib.ambulo_result_timing)
 
     @property
     def nlopt(self) -> records.NloptWork:
-        return from_c(records.NloptWork, lib.ambulo_result_nlopt(self._pointer))
+        return self._record(records.NloptWork, lib.ambulo_result_nlopt)
 
     @property
     def history(self) -> Dict[str, numpy.ndarray]:
@@ -132,7 +135,7 @@ class Result(Owner):
         grid, objective, violation, gradient, seconds (``ambulo_iteration`` of ambulo/solve.h); the
         last is the point that was found. ``pandas.DataFrame(result.history)`` makes a table,
         ``ambulo.plots.convergence(result)`` a picture."""
-        items = from_c(records.History, lib.ambulo_result_history(self._pointer)).items
+        items = self._record(records.History, lib.ambulo_result_history).items
         return {name: numpy.array([getattr(item, name) for item in items], kind)
                 for name, kind in (("iteration", int), ("evaluations", int), ("intervals", int),
                                    ("objective", float), ("violation", float), ("gradient", float),
@@ -141,12 +144,12 @@ class Result(Owner):
     @property
     def starts(self) -> Optional[records.Starts]:
         """Valleys that several starts ended in; None for one start."""
-        return self._optional(lib.ambulo_result_starts(self._pointer), records.Starts)
+        return self._record(records.Starts, lib.ambulo_result_starts)
 
     @property
     def ending(self) -> str:
         """Why the solver ended, in words."""
-        return text_of(lib.ambulo_result_ending(self._pointer))
+        return self._read(text_of, lib.ambulo_result_ending)
 
     @property
     def ending_code(self) -> records.Ending:
@@ -155,8 +158,7 @@ class Result(Owner):
     @property
     def parameters(self) -> Optional[records.ParametersOutcome]:
         """What became of free parameters; None without."""
-        return self._optional(lib.ambulo_result_parameters(self._pointer),
-                              records.ParametersOutcome)
+        return self._record(records.ParametersOutcome, lib.ambulo_result_parameters)
 
     # ----------------------------------------------------------- sensitivities
 

@@ -75,6 +75,7 @@ def solve(problem, start, progress, interrupt, options, settings):
     from .result import Result
 
     run = Run(problem, options, settings, progress, interrupt)
+    problem = problem._twin()  # the caller's may be closed meanwhile
     out, first = ffi.new("ambulo_result **"), start_of(problem, start)
     with Call() as call:
         status = lib.ambulo_solve(problem._pointer, run.options, first, NULL, call.messages, out)
@@ -86,13 +87,14 @@ def solve_refined(problem, start, progress, interrupt, options, settings):
     from .result import Result
 
     run = Run(problem, options, settings, progress, interrupt)
+    problem = problem._twin()
     out, finer = ffi.new("ambulo_result **"), ffi.new("ambulo_problem **")
     first = start_of(problem, start)
 
     def make(call):
         last = problem
         if finer[0]:
-            last = Problem(Handle(finer[0], lib.ambulo_problem_free, problem._handle))
+            last = Problem(Handle(finer[0], lib.ambulo_problem_free, problem._held))
         return Result(last, out[0], call.list())
 
     with Call() as call:
@@ -105,6 +107,7 @@ def audit(problem, x, options, settings):
     from .result import Result
 
     run = Run(problem, options, settings, None, "keep")
+    problem = problem._twin()
     out, x = ffi.new("ambulo_result **"), problem._point(x)
     with Call() as call:
         status = lib.ambulo_audit_point(problem._pointer, run.options, doubles(x), NULL,
@@ -115,9 +118,15 @@ def audit(problem, x, options, settings):
 # ------------------------------------------------------------- free parameters
 
 
-def problem_at(function, count, kept):
+def problem_at(solved, function, count, kept):
     """A Python function that makes problems, as the library calls it. The library takes each
     problem over; what that needs (its model, functions) is held in `kept`."""
+
+    def of(handle):
+        yield handle
+        for need in handle.needs:
+            if isinstance(need, Handle):
+                yield from of(need)
 
     def make(_, values, _allocator, _diagnostics, out):
         values = numpy.frombuffer(ffi.buffer(values, 8 * count), dtype=float).copy()
@@ -125,9 +134,14 @@ def problem_at(function, count, kept):
             problem = function(values)
         except AmbuloError as fault:
             return int(records.Status[fault.status])
-        handle = problem._handle
-        out[0], handle.pointer = handle.pointer, None
+        if not hasattr(problem, "_twin"):
+            raise TypeError(f"the function returned {problem!r}; expected a Problem")
+        handle = problem._held
+        if any(handle is other for other in of(solved._held)):
+            raise ValueError("the function returned the problem that is solved; expected a new one "
+                             "at each call, which is then handed over")
         kept.append(handle.needs)
+        out[0] = handle.give()
         problem.close()
         return 0
 
@@ -141,6 +155,7 @@ def solve_parameters(problem, parameters, at, start, progress, interrupt, option
     from .result import Result
 
     run, kept = Run(problem, options, settings, progress, interrupt), []
+    problem = problem._twin()
     struct = usual_struct("ambulo_parameters")
     lib.ambulo_problem_parameters_fill(problem._pointer, struct)
     if parameters is not None or at is not None:
@@ -150,12 +165,12 @@ def solve_parameters(problem, parameters, at, start, progress, interrupt, option
                 records.Parameter(name, *bounds) for name, bounds in parameters.items()])
         struct = run.carrier.new(parameters)
         if at is not None:
-            struct.problem_at = run.carrier.keep(problem_at(at, len(parameters.items), kept))
+            struct.problem_at = run.carrier.keep(problem_at(problem, at, len(parameters.items), kept))
     out, best = ffi.new("ambulo_result **"), ffi.new("ambulo_problem **")
     struct.start = first = start_of(problem, start)
 
     def make(call):
-        handle = Handle(best[0], lib.ambulo_problem_free, problem._handle, kept)
+        handle = Handle(best[0], lib.ambulo_problem_free, problem._held, kept)
         return Result(Problem(handle), out[0], call.list())
 
     with Call() as call:
