@@ -33,6 +33,7 @@ typedef struct job {
   ambulo__cli_watch watch;
   int terminal;     /* 1: show progress */
   char norms[4096]; /* the folder of report.norms */
+  char *inputs;     /* of the file's problem, which the best values' may outlive */
 } job;
 
 /* "solve 3 (best 0.0921): " of a run over free parameters */
@@ -277,6 +278,11 @@ static int run_job(job *j) {
   ambulo_status status = ambulo_report_check(j->directory, &j->report, j->diagnostics);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
   status = ambulo__cli_load_problem(j->input, file, j->diagnostics, &j->problem);
+  if (!status) {
+    j->inputs = strdup(ambulo_problem_inputs(j->problem));
+    if (!j->inputs) status = AMBULO_E_MEMORY;
+    j->report.inputs = j->inputs;
+  }
   if (!status) status = load_start(j);
   if (!status) status = solve(j);
   if (!status && ambulo__cli_flag(j->input, "sensitivities")) status = find_sensitivities(j);
@@ -292,6 +298,7 @@ static int run(const ambulo__cli_input *input) {
   ambulo_problem_free(j.problem);
   ambulo_problem_free(j.coarser);
   ambulo_diagnostics_free(j.diagnostics);
+  free(j.inputs);
   free(j.start);
   free(j.directory);
   return code;

@@ -28,6 +28,17 @@ static int is_file(const char *path) {
   return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
+/* nothing of that name: neither a link to nowhere, nor what cannot be looked at now */
+static int is_absent(const char *path) {
+  struct stat info;
+  return lstat(path, &info) != 0 && (errno == ENOENT || errno == ENOTDIR);
+}
+
+static int is_folder(const char *path) {
+  struct stat info;
+  return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
 /* the folder of the program, without links */
 static int own_folder(char folder[PATH]) {
   char own[PATH];
@@ -85,9 +96,11 @@ void ambulo__cli_shipped_announce(void) {
 int ambulo__cli_find_file(const char *word, char *buffer, size_t size) {
   char name[PATH];
   size_t length = strlen(word);
-  if (length == 0 || length + sizeof ".yaml" > sizeof name || is_file(word)) return 0;
+  if (length == 0 || length + sizeof ".yaml" > sizeof name || ambulo__cli_is_worker()) return 0;
+  if (!is_absent(word) && !is_folder(word)) return 0;
   ambulo__cli_format(name, sizeof name, "%s.yaml", word);
-  int here = is_file(name) && strlen(name) < size, below = word[0] != '/' && !strstr(word, "..");
+  int here = !is_absent(name) && !is_folder(name) && strlen(name) < size;
+  int below = word[0] != '/' && !strstr(word, "..");
   if (here) {
     ambulo__cli_format(buffer, size, "%s", name);
   } else if (!below || !((ambulo__cli_shipped_file(word, buffer, size) && is_file(buffer)) ||
@@ -102,7 +115,7 @@ int ambulo__cli_find_file(const char *word, char *buffer, size_t size) {
 void ambulo__cli_shipped_hint(const char *file) {
   char folder[PATH], path[2 * PATH];
   const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
-  if (!name[0] || is_there(file) || !ambulo__cli_shipped_folder(folder, sizeof folder)) return;
+  if (!name[0] || !is_absent(file) || !ambulo__cli_shipped_folder(folder, sizeof folder)) return;
   ambulo__cli_format(path, sizeof path, "%s/%s", folder, name);
   if (is_there(path))
     fprintf(stderr,

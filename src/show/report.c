@@ -191,7 +191,7 @@ static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *re
 static ambulo_status write_all(const ambulo_problem *problem, const ambulo_result *result,
                                const ambulo_report_options *options, ambulo__folder *folder,
                                ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
-  ambulo__summary_json(problem, result, options->sensitivities, text);
+  ambulo__summary_json(problem, result, options, text);
   ambulo_status status = write_text(folder, summary_name, text, diagnostics);
   if (status) return status;
   ambulo__solution_yaml(problem, result, text);
@@ -229,7 +229,7 @@ ambulo_status ambulo_report_summary(const ambulo_problem *problem, const ambulo_
   if (!problem || !result || !text || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
   ambulo__text_buffer buffer;
   ambulo__text_init(&buffer, allocator);
-  ambulo__summary_json(problem, result, own.sensitivities, &buffer);
+  ambulo__summary_json(problem, result, &own, &buffer);
   ambulo_status status = ambulo__text_status(&buffer);
   char *copy = status ? NULL : ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
   ambulo__text_free(&buffer);

@@ -5,6 +5,9 @@
 #include "solver/result.h"
 #include "show/summary_json.h"
 
+#include "ambulo/tools/load.h"
+#include "formats/inputs.h"
+
 #include "ambulo/parameters.h"
 #include "formats/json_text.h"
 #include "contact/row_families.h"
@@ -330,7 +333,7 @@ static void versions(ambulo__json *json) {
 }
 
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          const ambulo_sensitivity_list *sensitivities, ambulo__text_buffer *text) {
+                          const ambulo_report_options *options, ambulo__text_buffer *text) {
   ambulo__json writer = {.text = text, .first = 1};
   ambulo__json *json = &writer;
   ambulo_verdict verdict = ambulo_result_verdict(result);
@@ -355,13 +358,14 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   audit(json, result);
   between_nodes(json, result);
   explanation(json, result);
-  list_sensitivities(json, sensitivities);
+  list_sensitivities(json, options->sensitivities);
   sizes(json, problem);
   starts(json, ambulo_result_starts(result));
   effort(json, result);
   ambulo__history_json(json, result);
   versions(json);
   ambulo__json_hash(json, "input_hash", ambulo_problem_hash(problem));
+  ambulo__inputs_json(options->inputs ? options->inputs : ambulo_problem_inputs(problem), json);
   ambulo__json_close(json, '}');
   if (status) text->failed = 1; /* only an allocation can fail */
 }

@@ -47,8 +47,9 @@ ambulo_status ambulo__reaction_json(ambulo__json *json, const ambulo_problem *pr
 
 /* summary.json (docs/results.md). */
 
-/* Appends the whole text; sensitivities NULL: not asked for. Failures stick to the buffer. */
+/* Appends the whole text, with the options' sensitivities and inputs. Failures stick to the buffer.
+ */
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          const ambulo_sensitivity_list *sensitivities, ambulo__text_buffer *text);
+                          const ambulo_report_options *options, ambulo__text_buffer *text);
 
 #endif

@@ -98,8 +98,10 @@ ambulo_status ambulo__record_find(const char *directory, const char *id, unsigne
                                   int files, const ambulo_allocator *allocator,
                                   ambulo__finding *finding, ambulo__record *record,
                                   ambulo__damage *damage);
+/* `inputs`: all that it was solved from (formats/inputs.h). */
 ambulo_status ambulo__record_write(const char *directory, const char *id,
-                                   const ambulo__record *record, const ambulo_allocator *allocator,
+                                   const ambulo__record *record, const char *inputs,
+                                   const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics);
 /* Fills files with what stands there now, and from the result folder state, valid and violation.
  * *taken = 0: there is no result, or it is none of ours. Errors: E_IO, E_LIMIT (more files than a

@@ -1,7 +1,9 @@
 /* study/batch_worker.c - the process of one case: started, and what its end means.
  *
  * The worker limits its own address space and asks to die with its parent (src/cli/worker.c):
- * it reads both from AMBULO_WORKER="<parent process> <megabytes>".
+ * it reads both from AMBULO_WORKER="<parent process> <megabytes>". AMBULO_INPUTS has the files that
+ * it may read, with their checksums (definitions/problem_file.c): a file that changed, or is away,
+ * ends the run, since its case would be another one.
  *
  * Recorded: whatever the case itself brought about (a verdict, invalid input, a crash, its time
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
@@ -30,12 +32,13 @@
 extern char **environ;
 #endif
 
-enum { FIXED_ARGUMENTS = 10, FIXED_VARIABLES = 2 };
+enum { FIXED_ARGUMENTS = 10, FIXED_VARIABLES = 3 };
 
 typedef struct command {
   const ambulo_allocator *allocator;
   char *result, *log, *start;
   const char **argument, **variable; /* both end with NULL */
+  ambulo__text_buffer inputs;
   char limits[64];
 } command;
 
@@ -45,6 +48,7 @@ static void free_command(command *c) {
   ambulo__free(c->allocator, c->start);
   ambulo__free(c->allocator, (void *)c->argument);
   ambulo__free(c->allocator, (void *)c->variable);
+  ambulo__text_free(&c->inputs);
 }
 
 static int is_variable(const char *text, const char *name) {
@@ -52,19 +56,26 @@ static int is_variable(const char *text, const char *name) {
   return strncmp(text, name, length) == 0 && text[length] == '=';
 }
 
-static int fill_environment(command *c, int megabytes) {
+/* what the worker sets for its own process is none of the caller's */
+static int is_ours(const char *text) {
+  return is_variable(text, "OPENBLAS_NUM_THREADS") || is_variable(text, "AMBULO_WORKER") ||
+         is_variable(text, "AMBULO_INPUTS");
+}
+
+static int fill_environment(command *c, const ambulo__supervisor *batch, int index) {
   size_t count = 0, kept = 0;
   while (environ[count]) count++;
   c->variable = ambulo__alloc(c->allocator, count + FIXED_VARIABLES + 1, sizeof *c->variable);
   if (!c->variable) return 0;
-  for (size_t i = 0; i < count; i++) {
-    if (is_variable(environ[i], "OPENBLAS_NUM_THREADS") || is_variable(environ[i], "AMBULO_WORKER"))
-      continue;
-    c->variable[kept++] = environ[i];
-  }
-  (void)snprintf(c->limits, sizeof c->limits, "AMBULO_WORKER=%ld %d", (long)getpid(), megabytes);
+  for (size_t i = 0; i < count; i++)
+    if (!is_ours(environ[i])) c->variable[kept++] = environ[i];
+  (void)snprintf(c->limits, sizeof c->limits, "AMBULO_WORKER=%ld %d", (long)getpid(),
+                 batch->case_megabytes);
+  ambulo__text_append(&c->inputs, "AMBULO_INPUTS=");
+  if (ambulo__sweep_case_inputs(batch->sweep, index, &c->inputs)) return 0;
   c->variable[kept++] = "OPENBLAS_NUM_THREADS=1";
-  c->variable[kept] = c->limits;
+  c->variable[kept++] = c->limits;
+  c->variable[kept] = ambulo__text_data(&c->inputs);
   return 1;
 }
 
@@ -88,7 +99,7 @@ static int fill_command(command *c, const ambulo__supervisor *batch, int index, 
     c->argument[count++] = one->override[i];
   }
   c->argument[count] = batch->sweep->base;
-  return fill_environment(c, batch->case_megabytes);
+  return fill_environment(c, batch, index);
 }
 
 static int prepare(posix_spawn_file_actions_t *files, posix_spawnattr_t *attributes,
@@ -186,6 +197,7 @@ static ambulo_status make_place(const ambulo__supervisor *batch, const char *id)
 
 ambulo_status ambulo__worker_start(const ambulo__supervisor *batch, ambulo__slot *slot) {
   command c = {.allocator = batch->allocator};
+  ambulo__text_init(&c.inputs, batch->allocator);
   const char *program = batch->options.program;
   ambulo_status status = make_place(batch, batch->sweep->cases[slot->index].id);
   if (!status && !fill_command(&c, batch, slot->index, slot->from)) status = AMBULO_E_MEMORY;
@@ -207,20 +219,26 @@ static int from_outside(int number) {
          number == SIGQUIT;
 }
 
-/* first line of the worker's log in the message */
+/* the first error of the worker's log, with its file, in the message */
 static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id) {
   if (batch->status) return batch->status; /* said once */
   char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log"), *text = NULL;
   size_t length = 0;
   if (path && ambulo__read_file(path, MOST_LOG_BYTES, batch->allocator, NULL, &text, &length))
     text = NULL;
-  const char *error = text ? strstr(text, "error[") : NULL;
-  if (error && strstr(error, "]: ")) error = strstr(error, "]: ") + 3;
-  if (!error) error = text && text[0] ? text : "its log says nothing";
+  const char *error = text ? strstr(text, "error[") : NULL, *file = text, *said = "";
+  if (error && strstr(error, "]: ")) said = strstr(error, "]: ") + 3;
+  for (const char *line = text; error && line && line < error; line = strchr(line, '\n')) {
+    line += *line == '\n';
+    file = line;
+  }
+  int named = said[0] ? (int)(error - file) : 0;
+  if (!said[0]) said = text && text[0] ? text : "its log says nothing";
   ambulo__place place = {batch->directory, 0, 0, NULL};
-  ambulo_status status = ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
-                                       "what is finished is kept; run the same command again",
-                                       "case %s: %.*s", id, (int)strcspn(error, "\n"), error);
+  ambulo_status status =
+      ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
+                    "what is finished is kept; run the same command again", "case %s: %.*s%.*s", id,
+                    named, file, (int)strcspn(said, "\n"), said);
   ambulo__free(batch->allocator, text);
   ambulo__free(batch->allocator, path);
   return status;
@@ -274,8 +292,13 @@ static ambulo_status drop_empty_log(const ambulo__supervisor *batch, const char 
 
 static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__record *record) {
   const ambulo__sweep_case *one = &batch->sweep->cases[index];
-  ambulo_status status =
-      ambulo__record_write(batch->directory, one->id, record, batch->allocator, batch->diagnostics);
+  ambulo__text_buffer inputs;
+  ambulo__text_init(&inputs, batch->allocator);
+  ambulo_status status = ambulo__sweep_case_inputs(batch->sweep, index, &inputs);
+  if (!status)
+    status = ambulo__record_write(batch->directory, one->id, record, ambulo__text_data(&inputs),
+                                  batch->allocator, batch->diagnostics);
+  ambulo__text_free(&inputs);
   if (status) return status;
   ambulo_batch_progress *p = &batch->progress;
   batch->of[index].state = AMBULO__CASE_DONE;

@@ -4,6 +4,7 @@
 #include "formats/atomic_file.h"
 #include "formats/json_text.h"
 #include "formats/paths.h"
+#include "formats/inputs.h"
 #include "formats/read_file.h"
 #include "study/batch.h"
 
@@ -145,7 +146,8 @@ static ambulo_status check_files(const char *directory, const char *id,
 
 enum { MOST_RECORD_BYTES = 1 << 20, MOST_SUMMARY_BYTES = 16 << 20 };
 
-static const char schema[] = "ambulo-case/2", unsealed_schema[] = "ambulo-case/1";
+static const char schema[] = "ambulo-case/3";
+static const char *const earlier[] = {"ambulo-case/1", "ambulo-case/2"};
 static const char summary_file[] = "/summary.json", record_file[] = ".json";
 
 /* ------------------------------------------------------------------- reading */
@@ -198,6 +200,7 @@ static int read_fields(const ambulo__yaml_node *root, const char *id, ambulo__re
   r->limit_megabytes =
       ambulo__yaml_integer(ambulo__yaml_require(root, "limit_megabytes"), 0, 2000000000, 0);
   r->violation = ambulo__yaml_number(ambulo__yaml_require(root, "violation"), -1.0);
+  ambulo__yaml_expect(root, "inputs"); /* for people: the key stands for them */
   if (!read_files(ambulo__yaml_require(root, "files"), id, &r->files)) return 0;
   int result = ambulo__case_files_have(&r->files, summary_file);
   return r->valid == is_valid_state(r->state) && (result || !r->valid);
@@ -216,7 +219,7 @@ static ambulo_status judge_text(const char *text, size_t length, const char *id,
   *what = "is not what was written";
   *finding = AMBULO__FOUND_DAMAGED;
   memset(record, 0, sizeof *record);
-  if (strcmp(own, unsealed_schema) == 0) {
+  if (strcmp(own, earlier[0]) == 0 || strcmp(own, earlier[1]) == 0) {
     *finding = AMBULO__FOUND_STALE;
   } else if (ours && ambulo__seal_holds(text, length)) {
     *what = "contradicts itself, or is the record of another case";
@@ -282,7 +285,8 @@ static void write_files(ambulo__json *json, const char *id, const ambulo__case_f
 }
 
 ambulo_status ambulo__record_write(const char *directory, const char *id, const ambulo__record *r,
-                                   const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+                                   const char *inputs, const ambulo_allocator *a,
+                                   ambulo_diagnostics *diagnostics) {
   ambulo__text_buffer text;
   ambulo__text_init(&text, a);
   ambulo__json json = {&text, 0, 1};
@@ -300,6 +304,7 @@ ambulo_status ambulo__record_write(const char *directory, const char *id, const 
   ambulo__json_number(&json, "limit_seconds", r->limit_seconds);
   ambulo__json_integer(&json, "limit_megabytes", r->limit_megabytes);
   ambulo__json_number(&json, "violation", r->violation);
+  ambulo__inputs_json(inputs, &json);
   write_files(&json, id, &r->files);
   ambulo__seal(&text);
   char *path = ambulo__case_path(a, directory, id, record_file);

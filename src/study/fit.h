@@ -29,6 +29,7 @@
 #include "base/alloc.h"
 #include "people/compare.h"
 #include "base/text_buffer.h"
+#include "formats/inputs.h"
 #include "formats/yaml_node.h"
 #include "study/study.h"
 
@@ -121,6 +122,9 @@ struct ambulo_fit {
   double case_seconds;
   int case_megabytes;
   unsigned long long hash; /* of the fit file, the problem's text, the map and the references */
+  char *text;              /* of the problem, [length] */
+  size_t length;
+  ambulo__text_buffer known; /* files that solves are read from (formats/inputs.h) */
 };
 
 /* fit_conditions.c: the number of items or pairs at a node, of which there may be 1 to `most`; 0
@@ -134,6 +138,8 @@ ambulo_status ambulo__fit_read_references(ambulo_fit *fit);
 /* fit_values.c: what the keys are by themselves in each condition, and whether the problem can be
  * read with each condition and each bound. Errors as above. */
 ambulo_status ambulo__fit_read_keys(ambulo_fit *fit);
+/* fit_conditions.c: fit->text, once. Errors: E_IO, E_LIMIT, E_MEMORY. */
+ambulo_status ambulo__fit_read_text(ambulo_fit *fit, ambulo_diagnostics *diagnostics);
 /* The factor or addend at u, and a key's value with it, to nine digits. */
 double ambulo__fit_change(const ambulo__fit_parameter *parameter, double u);
 double ambulo__fit_value(const ambulo__fit_parameter *parameter, double own, double u);

@@ -239,6 +239,17 @@ static ambulo_status make_targets(ambulo_fit *fit, ambulo__fit_condition *c) {
   return AMBULO_OK;
 }
 
+ambulo_status ambulo__fit_read_text(ambulo_fit *fit, ambulo_diagnostics *diagnostics) {
+  ambulo__inputs inputs = {.known = &fit->known};
+  if (fit->text) return AMBULO_OK;
+  ambulo__text_init(&inputs.read, &fit->allocator);
+  ambulo_status status =
+      ambulo__inputs_read(&inputs, fit->problem, AMBULO__YAML_MAX_BYTES, &fit->allocator,
+                          diagnostics, &fit->text, &fit->length);
+  ambulo__text_free(&inputs.read);
+  return status;
+}
+
 ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
   for (int i = 0; i < fit->conditions; i++) {
     ambulo__fit_condition *c = &fit->condition[i];

@@ -244,21 +244,40 @@ static ambulo_status read_sections(ambulo_fit *fit) {
   return AMBULO_OK;
 }
 
-static ambulo_status hash_file(ambulo_fit *fit, const char *path) {
+static ambulo_status hash_file(const char *path, ambulo_diagnostics *diagnostics,
+                               unsigned long long *hash) {
   char digest[AMBULO__SHA256_TEXT];
-  ambulo_status status = path ? ambulo__digest_file(path, fit->diagnostics, digest) : AMBULO_OK;
-  if (path && !status) fit->hash = ambulo__hash_text(fit->hash, digest);
+  ambulo_status status = path ? ambulo__digest_file(path, diagnostics, digest) : AMBULO_OK;
+  if (path && !status) *hash = ambulo__hash_text(*hash, digest);
   return status;
 }
 
-static ambulo_status hash_inputs(ambulo_fit *fit) {
+static ambulo_status hash_inputs(const ambulo_fit *fit, ambulo_diagnostics *diagnostics,
+                                 unsigned long long *hash) {
   const char *const paths[] = {fit->path, fit->problem, fit->compare.map};
   ambulo_status status = AMBULO_OK;
-  fit->hash = AMBULO__HASH_START;
-  for (int i = 0; i < 3 && !status; i++) status = hash_file(fit, paths[i]);
+  *hash = AMBULO__HASH_START;
+  for (int i = 0; i < 3 && !status; i++) status = hash_file(paths[i], diagnostics, hash);
   for (int i = 0; i < fit->conditions && !status; i++)
-    status = hash_file(fit, fit->condition[i].reference);
+    status = hash_file(fit->condition[i].reference, diagnostics, hash);
   return status;
+}
+
+/* references and problem, between two looks at the files: what is read is what is hashed */
+static ambulo_status read_files(ambulo_fit *fit) {
+  unsigned long long before = 0;
+  ambulo__place place = {.file = fit->path};
+  /* the reader reports a file that is missing */
+  ambulo_status seen = hash_inputs(fit, NULL, &before);
+  ambulo_status status = ambulo__fit_read_references(fit);
+  if (!status) status = ambulo__yaml_finish(fit->document);
+  if (!status) status = ambulo__fit_read_keys(fit);
+  if (!status) status = ambulo__yaml_finish(fit->document);
+  if (!status) status = hash_inputs(fit, fit->diagnostics, &fit->hash);
+  if (status || (!seen && before == fit->hash)) return status;
+  return ambulo__error(fit->diagnostics, AMBULO_E_IO, place, "run it again",
+                       "the fit file, its problem, map or references changed while they were read; "
+                       "expected the same files");
 }
 
 static ambulo_status read_all(ambulo_fit *fit) {
@@ -266,11 +285,7 @@ static ambulo_status read_all(ambulo_fit *fit) {
       ambulo__yaml_load(fit->path, &fit->allocator, fit->diagnostics, &fit->document);
   if (!status) status = read_sections(fit);
   if (!status) status = ambulo__yaml_finish(fit->document);
-  if (!status) status = ambulo__fit_read_references(fit);
-  if (!status) status = ambulo__yaml_finish(fit->document);
-  if (!status) status = ambulo__fit_read_keys(fit);
-  if (!status) status = ambulo__yaml_finish(fit->document);
-  return status ? status : hash_inputs(fit);
+  return status ? status : read_files(fit);
 }
 
 /* ---------------------------------------------------------------- entry points */
@@ -284,6 +299,7 @@ ambulo_status ambulo_fit_load(const char *path, const ambulo_allocator *allocato
   if (!f) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, path);
   f->allocator = own;
   f->diagnostics = diagnostics;
+  ambulo__text_init(&f->known, &own);
   f->correlation = 1.2;
   f->range_cost = 0.8;
   f->cap = 12.0;
@@ -322,6 +338,8 @@ void ambulo_fit_free(ambulo_fit *f) {
   ambulo__free(&a, (void *)f->compare.map);
   ambulo__free(&a, f->path);
   ambulo__free(&a, f->problem);
+  ambulo__free(&a, f->text);
+  ambulo__text_free(&f->known);
   ambulo__yaml_free(f->document);
   ambulo__free(&a, f);
 }

@@ -91,8 +91,8 @@ ambulo_status ambulo__fit_runner_open(const ambulo_fit *fit, const char *directo
   r->solves = ambulo__join_paths(allocator, directory, "solves", NULL);
   ambulo_status status = r->solves ? allocate(r) : AMBULO_E_MEMORY;
   if (status) return status;
-  status =
-      ambulo__sweep_begin(fit->name, fit->path, fit->problem, allocator, diagnostics, &r->sweep);
+  status = ambulo__sweep_begin(fit->name, fit->path, fit->problem, ambulo__text_data(&fit->known),
+                               allocator, diagnostics, &r->sweep);
   if (status) return status;
   r->sweep->case_seconds = fit->case_seconds;
   r->sweep->case_megabytes = fit->case_megabytes;

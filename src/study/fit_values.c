@@ -5,11 +5,10 @@
  * fit.json say. In the file, scalars are found by the line and column that the document remembers,
  * and must be there what the document says. */
 #include "base/diagnostics.h"
-#include "ambulo/tools/load.h"
 #include "base/numtext.h"
+#include "definitions/problem_load.h"
 #include "formats/atomic_file.h"
 #include "formats/paths.h"
-#include "formats/read_file.h"
 #include "study/fit.h"
 
 #include <math.h>
@@ -17,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_BYTES = 16 << 20, MOST_PLACES = AMBULO__FIT_PARAMETERS * AMBULO__FIT_KEYS + 256 };
+enum { MOST_PLACES = AMBULO__FIT_PARAMETERS * AMBULO__FIT_KEYS + 256 };
 
 static double nine_digits(double value) {
   if (value == 0.0 || !isfinite(value)) return value;
@@ -85,9 +84,12 @@ static ambulo_status report_at(const ambulo__yaml_node *node, ambulo_status stat
 }
 
 /* the problem's text, with what a condition sets (NULL: as it is) */
-static ambulo_status load_text(const ambulo_fit *fit, const ambulo__fit_condition *c,
+static ambulo_status load_text(ambulo_fit *fit, const ambulo__fit_condition *c,
                                ambulo_diagnostics *list, ambulo__yaml **document) {
-  ambulo_status status = ambulo__yaml_load(fit->problem, &fit->allocator, list, document);
+  ambulo_status status = ambulo__fit_read_text(fit, list);
+  if (!status)
+    status = ambulo__yaml_load_text(fit->text, fit->length, fit->problem, &fit->allocator, list,
+                                    document);
   for (int i = 0; c && i < c->sets && !status; i++) {
     const char *equals = strchr(c->set[i], '=');
     if (strncmp(c->set[i], "model.", 6) == 0) continue;
@@ -155,7 +157,7 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
 /* ---------------------------------------------------------------------- trying */
 
 /* Only what a value is in itself ends the fit: whether values agree is a result of a solve. */
-static ambulo_status try_at(const ambulo_fit *fit, int condition, const double *u,
+static ambulo_status try_at(ambulo_fit *fit, int condition, const double *u,
                             const ambulo__yaml_node *node, const char *lead) {
   const char **overrides = NULL;
   int count = 0;
@@ -164,7 +166,8 @@ static ambulo_status try_at(const ambulo_fit *fit, int condition, const double *
   if (!list) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__fit_overrides(fit, condition, u, &overrides, &count);
   if (!status)
-    status = ambulo_problem_load(fit->problem, overrides, count, &fit->allocator, list, &problem);
+    status = ambulo__problem_load_known(fit->problem, overrides, count, &fit->known,
+                                        &fit->allocator, list, &problem);
   ambulo_problem_free(problem);
   ambulo__free(&fit->allocator, (void *)overrides);
   int own = status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO ||
@@ -178,7 +181,7 @@ static ambulo_status try_at(const ambulo_fit *fit, int condition, const double *
 }
 
 /* all conditions at u = 0, and of one that is fitted both bounds of each parameter */
-static ambulo_status try_all(const ambulo_fit *fit) {
+static ambulo_status try_all(ambulo_fit *fit) {
   double u[AMBULO__FIT_PARAMETERS] = {0.0};
   ambulo_status status = AMBULO_OK;
   char lead[160];
@@ -379,19 +382,17 @@ ambulo_status ambulo__fitted_problem(const ambulo_fit *fit, const double *u, con
                                      ambulo_diagnostics *diagnostics, ambulo__text_buffer *text) {
   const ambulo_allocator *a = &fit->allocator;
   rewrite w = {.fit = fit, .diagnostics = diagnostics};
-  char *own = NULL, *folder = ambulo__parent_path(a, fit->problem);
+  char *folder = ambulo__parent_path(a, fit->problem);
   char *way = folder ? ambulo__path_between(a, directory, folder) : NULL;
   w.places = ambulo__alloc(a, MOST_PLACES, sizeof *w.places);
   ambulo_status status = folder && w.places ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status && !way) status = ambulo__io_error(diagnostics, folder, "find the way to the folder");
-  if (!status)
-    status = ambulo__read_file(fit->problem, MOST_BYTES, a, diagnostics, &own, &w.length);
-  w.text = own;
+  w.text = fit->text;
+  w.length = fit->length;
   w.way = way ? way : "";
   if (!status) status = rewrite_text(&w, u, text);
   for (int i = 0; i < w.count; i++) ambulo__free(a, w.places[i].with);
   ambulo__free(a, w.places);
-  ambulo__free(a, own);
   ambulo__free(a, way);
   ambulo__free(a, folder);
   return status;

@@ -9,15 +9,16 @@
  * list is the product of the groups, the last one fastest, less what the filters take away,
  * then the explicit cases.
  *
- * Reading order: study.h, sweep_file.c, sweep_axes.c, case_list.c, sweep_check.c; batch_listing.c;
- * batch.h, batch_folder.c, case_record.c, batch_run.c, batch_worker.c; results.h, outputs.c,
- * results.c; front.h and what it leads to; case_pack.h, study_page.c. */
+ * Reading order: study.h, sweep_file.c, sweep_axes.c, study_inputs.c, case_list.c, sweep_check.c;
+ * batch_listing.c; batch.h, batch_folder.c, case_record.c, batch_run.c, batch_worker.c; results.h,
+ * outputs.c, results.c; front.h and what it leads to; case_pack.h, study_page.c. */
 #ifndef AMBULO_STUDY_STUDY_H
 #define AMBULO_STUDY_STUDY_H
 
 #include "ambulo/problem.h"
 #include "ambulo/tools/batch.h"
 #include "base/alloc.h"
+#include "base/text_buffer.h"
 #include "formats/yaml_node.h"
 #include "study/front.h"
 
@@ -102,6 +103,8 @@ struct ambulo_sweep {
   double case_seconds;          /* 0: no limit */
   int case_megabytes;           /* 0: no limit */
   unsigned long long base_hash; /* of the problem and the versions */
+  char *base_inputs;            /* files that the base problem was read from (formats/inputs.h) */
+  ambulo__text_buffer *known;   /* all files that cases are read from */
   int trusted; /* cases before it were run or verified by this process: their files are not read
                   again */
 };
@@ -109,10 +112,10 @@ struct ambulo_sweep {
 /* ---------------------------------------------------------------- sweep_file.c */
 
 /* A study without cases, to which others add them one by one: its axes are none, so that nothing is
- * a product. `path` is the file that asks for it, `base` its problem, which is loaded once. Errors
- * as of ambulo_sweep_load. */
+ * a product. `path` is the file that asks for it, `base` its problem, which is loaded once, `known`
+ * the files that were read before (formats/inputs.h). Errors as of ambulo_sweep_load. */
 ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char *base,
-                                  const ambulo_allocator *allocator,
+                                  const char *known, const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_sweep **sweep);
 /* *copy of the text at a node, where there is one. */
 static inline ambulo_status ambulo__sweep_copy(const ambulo_sweep *sweep,
@@ -142,15 +145,21 @@ ambulo_status ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, cons
                                      ambulo__spot spot, ambulo__axis **axis);
 ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,
                                     const ambulo__yaml_node *node);
-/* *hash of the regular file that a value names, seen from the base problem; 0: no such file.
- * Errors: E_IO, E_MEMORY. */
-ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *name,
-                                       unsigned long long *hash);
 const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
 ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
 /* Its place in the sweep file or the table. */
 ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
+
+/* -------------------------------------------------------------- study_inputs.c */
+
+/* *hash of the regular files that a value names, seen from the base problem; 0: none. They become
+ * known. Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *value,
+                                       unsigned long long *hash);
+/* Appends all that the case may be read from (formats/inputs.h). Errors: E_MEMORY. */
+ambulo_status ambulo__sweep_case_inputs(const ambulo_sweep *sweep, int index,
+                                        ambulo__text_buffer *lines);
 
 /* ----------------------------------------------------------------- case_list.c */
 

@@ -18,7 +18,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { MOST_FILE_BYTES = 16 << 20, MOST_TABLE_BYTES = 64 << 20 };
+enum { MOST_TABLE_BYTES = 64 << 20 };
 
 ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node) {
   ambulo__place place = ambulo__yaml_place(node);
@@ -53,42 +53,6 @@ int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name) {
   for (int i = 0; i < sweep->axes; i++)
     if (strcmp(sweep->axis[i].name, name) == 0) return i;
   return -1;
-}
-
-/* A value is a word, a number, a name of a file, or whatever else. *yes: a file of this name is
- * there. That nobody can tell is an error: another key would be computed. */
-static ambulo_status is_file(const ambulo_sweep *sweep, const char *path, int *yes) {
-  struct stat entry;
-  *yes = 0;
-  if (stat(path, &entry) == 0) {
-    *yes = S_ISREG(entry.st_mode) && entry.st_size <= MOST_FILE_BYTES;
-    return AMBULO_OK;
-  }
-  int none = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG || errno == ELOOP;
-  return none ? AMBULO_OK : ambulo__io_error(sweep->diagnostics, path, "inspect");
-}
-
-ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *name,
-                                       unsigned long long *hash) {
-  const ambulo__place nowhere = {NULL, 0, 0, NULL};
-  double number;
-  *hash = 0;
-  if (!name[0] || ambulo__parse_double(name, strlen(name), &number)) return AMBULO_OK;
-  char *path = NULL, *text = NULL;
-  size_t length = 0;
-  int yes = 0;
-  /* as the reader of problems finds it, silently: it may be no file at all */
-  ambulo_status status = ambulo__named_file(
-      &sweep->allocator, sweep->base ? sweep->base : sweep->path, name, nowhere, NULL, &path);
-  if (!status) status = is_file(sweep, path, &yes);
-  if (yes) {
-    status = ambulo__read_file(path, MOST_FILE_BYTES, &sweep->allocator, sweep->diagnostics, &text,
-                               &length);
-    if (!status) *hash = ambulo__hash_text(AMBULO__HASH_START, text);
-  }
-  ambulo__free(&sweep->allocator, text);
-  ambulo__free(&sweep->allocator, path);
-  return status;
 }
 
 static ambulo_status make_room(const ambulo_sweep *sweep, ambulo__axis *axis, ambulo__spot spot) {

@@ -3,8 +3,8 @@
  *
  * Both sides of a filter are axis names, numbers or words. Numbers compare as numbers, anything
  * else as text, and then only for equality. */
-#include "ambulo/tools/load.h"
 #include "base/numtext.h"
+#include "definitions/problem_load.h"
 #include "study/study.h"
 
 #include <stdio.h>
@@ -281,8 +281,8 @@ static ambulo_status probe(ambulo_sweep *s, int index) {
   ambulo_problem *problem = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(&s->allocator);
   if (!list) return AMBULO_E_MEMORY;
-  ambulo_status status =
-      ambulo_problem_load(s->base, one->override, one->overrides, &s->allocator, list, &problem);
+  ambulo_status status = ambulo__problem_load_known(s->base, one->override, one->overrides,
+                                                    s->known, &s->allocator, list, &problem);
   ambulo_problem_free(problem);
   if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO ||
       status == AMBULO_E_ARGUMENT)

@@ -2,14 +2,13 @@
 #include "ambulo/mechanics.h"
 #include "ambulo/tools/load.h"
 #include "ambulo/tools/report.h"
+#include "definitions/problem_load.h"
 #include "formats/paths.h"
 #include "formats/read_file.h"
 #include "study/study.h"
 
 #include <stdio.h>
 #include <string.h>
-
-enum { MOST_BASE_BYTES = 16 << 20 };
 
 static ambulo_status read_filters(ambulo_sweep *s, const ambulo__yaml_node *node) {
   int items = ambulo__yaml_items(node);
@@ -167,24 +166,29 @@ static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) 
                             "unknown axis (got '%s'); expected the name of an axis", name);
 }
 
+static unsigned long long hash_of_line(const char *line) {
+  char digest[AMBULO__SHA256_TEXT] = "";
+  if (line) (void)snprintf(digest, sizeof digest, "%s", line);
+  return ambulo__hash_text(AMBULO__HASH_START, digest);
+}
+
 /* the base problem is loaded once: its faults are reported now, and its hash enters every key.
  * *base is to be freed, also where that fails */
 static ambulo_status load_base(ambulo_sweep *s, ambulo_problem **base) {
   ambulo_problem *problem = NULL;
   ambulo_versions versions;
-  char *text = NULL;
-  size_t length = 0;
-  ambulo_status status =
-      ambulo_problem_load(s->base, NULL, 0, &s->allocator, s->diagnostics, &problem);
-  if (!status)
-    status =
-        ambulo__read_file(s->base, MOST_BASE_BYTES, &s->allocator, s->diagnostics, &text, &length);
+  ambulo_status status = ambulo__problem_load_known(s->base, NULL, 0, s->known, &s->allocator,
+                                                    s->diagnostics, &problem);
+  if (!status) {
+    s->base_inputs = ambulo__strdup(&s->allocator, ambulo_problem_inputs(problem));
+    if (!s->base_inputs) status = AMBULO_E_MEMORY;
+  }
   if (!status) {
     ambulo_versions_get(&versions);
     unsigned long long hash = ambulo_problem_hash(problem);
     (void)snprintf(s->problem_hash, sizeof s->problem_hash, "%016llx", hash);
     (void)snprintf(s->text_hash, sizeof s->text_hash, "%016llx",
-                   ambulo__hash_text(AMBULO__HASH_START, text));
+                   hash_of_line(ambulo__inputs_find(s->base_inputs, s->base)));
     (void)snprintf(s->version, sizeof s->version, "ambulo %s, NLopt %s", versions.ambulo,
                    versions.nlopt);
     /* not the instruction set: the nodes of a cluster may differ in it */
@@ -192,7 +196,6 @@ static ambulo_status load_base(ambulo_sweep *s, ambulo_problem **base) {
     hash = ambulo__hash_text(hash, versions.ambulo);
     s->base_hash = ambulo__hash_text(hash, versions.nlopt);
   }
-  ambulo__free(&s->allocator, text);
   *base = problem;
   return status;
 }
@@ -273,7 +276,9 @@ static ambulo_sweep *create(const char *path, const ambulo_allocator *allocator,
   s->diagnostics = diagnostics;
   s->chain_axis = -1;
   s->path = ambulo__strdup(&own, path);
-  if (s->path) return s;
+  s->known = ambulo__alloc(&own, 1, sizeof *s->known);
+  if (s->known) ambulo__text_init(s->known, &own);
+  if (s->path && s->known) return s;
   ambulo_sweep_free(s);
   return NULL;
 }
@@ -303,15 +308,16 @@ ambulo_status ambulo_sweep_load(const char *path, const ambulo_allocator *alloca
 }
 
 ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char *base,
-                                  const ambulo_allocator *allocator,
+                                  const char *known, const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_sweep **sweep) {
   ambulo_sweep *s = create(path, allocator, diagnostics);
   if (!s) return AMBULO_E_MEMORY;
+  ambulo__text_append(s->known, known);
   s->name = ambulo__strdup(&s->allocator, name);
   s->base = ambulo__strdup(&s->allocator, base);
   s->output = ambulo__alloc(&s->allocator, 0, sizeof *s->output);
   ambulo_problem *problem = NULL;
-  int whole = s->name && s->base && s->output;
+  int whole = s->name && s->base && s->output && !ambulo__text_status(s->known);
   ambulo_status status = whole ? load_base(s, &problem) : AMBULO_E_MEMORY;
   ambulo_problem_free(problem);
   return hand_over(s, status, sweep);
@@ -334,8 +340,11 @@ void ambulo_sweep_free(ambulo_sweep *s) {
   }
   for (int i = 0; s->filter && i < s->filters; i++) ambulo__free(&a, s->filter[i]);
   for (int i = 0; i < AMBULO__FRONT_TERMS; i++) ambulo__free(&a, s->front.name[i]);
-  char *const texts[] = {s->name, s->path, s->base, s->case_name, s->table, s->list};
+  char *const texts[] = {s->name,  s->path, s->base,       s->case_name,
+                         s->table, s->list, s->base_inputs};
   for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) ambulo__free(&a, texts[k]);
+  if (s->known) ambulo__text_free(s->known);
+  ambulo__free(&a, s->known);
   ambulo__free(&a, (void *)s->filter);
   ambulo__free(&a, s->output);
   ambulo__free(&a, s);

@@ -41,7 +41,26 @@ until_worker() { await "$1" has_worker "$1"; }
 # until it has handlers for the signals 2 (INT) and 15 (TERM): bits 1 and 14 of the mask
 until_interruptible() { await "$1" grep -q '^SigCgt.*[4567cdef]..[2367abef]$' "/proc/$1/status"; }
 until_says() { await "$1" grep -q -e "$2" "$3"; } # process, text, its file
-export -f await has_worker until_worker until_interruptible until_says
+# A file is another one (a sed script), or away (''), from when the list of a batch stands until the
+# command ends. It is to name the file with exit code 4; or it was through before.
+under() { # list of cases, file, script, what it is to say, command
+  local list=$1 file=$2 script=$3 says=$4 status
+  "${@:5}" 2>err & s=$!
+  until [ -s "$list" ] || ! kill -0 $s 2>/dev/null; do :; done
+  kill -STOP $s 2>/dev/null
+  cp "$file" keep
+  if [ -n "$script" ]; then sed -i "$script" "$file"; else rm "$file"; fi
+  cmp -s keep "$file" && echo "not edited: $file"
+  kill -CONT $s 2>/dev/null
+  wait $s && status=0 || status=$?
+  cp keep "$file"
+  if [ $status = 4 ] && grep -q "$says" err; then
+    echo "named $file"
+  elif [ $status != 0 ]; then
+    echo "WRONG $file: exit $status"; head -3 err
+  fi
+}
+export -f under await has_worker until_worker until_interruptible until_says
 
 reset() {
   name='' setup='' run='' code=0 silent='' writes='' cpu='' bounded=''

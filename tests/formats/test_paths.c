@@ -110,6 +110,15 @@ static void a_name_stays_below_the_folder(void **state) {
   }
 }
 
+/* nothing is taken for what is there, and cannot be read now */
+static void a_link_to_nowhere_is_something(void **state) {
+  make_models(state);
+  assert_int_equal(symlink("nowhere", scratch_path(state, "body.yaml")), 0);
+  assert_string_equal(found(state, "body.yaml"), "");
+  assert_int_equal(unlink(scratch_path(state, "body.yaml")), 0);
+  assert_string_equal(found(state, "body.yaml"), scratch_path(state, "models/body.yaml"));
+}
+
 static void without_the_variable_nothing_is_shipped(void **state) {
   make_models(state);
   assert_int_equal(setenv("AMBULO_MODELS", "", 1), 0);
@@ -147,6 +156,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(a_name_is_found, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(what_is_beside_comes_first, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(a_name_stays_below_the_folder, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(a_link_to_nowhere_is_something, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(without_the_variable_nothing_is_shipped, scratch_open,
                                       scratch_close),
       cmocka_unit_test_setup_teardown(what_was_taken_is_said_once, scratch_open, scratch_close)};

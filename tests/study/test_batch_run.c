@@ -48,7 +48,7 @@ static void record(ambulo__supervisor *batch, int index, const char *case_state,
   (void)mkdir(folder, 0777);
   snprintf(folder, sizeof folder, "%s/cases/%s", batch->directory, id + strlen(id) - 2);
   (void)mkdir(folder, 0777);
-  assert_int_equal(ambulo__record_write(batch->directory, id, &r, &plain, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__record_write(batch->directory, id, &r, "", &plain, NULL), AMBULO_OK);
 }
 
 static void a_chain_goes_on_in_its_order(void **state) {

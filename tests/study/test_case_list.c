@@ -9,7 +9,7 @@ static ambulo_sweep *begin(void **state) {
   scratch_write(scratch_path(state, "p.yaml"), sweep_problem);
   scratch_write(scratch_path(state, "one.yaml"), sweep_model);
   assert_int_equal(ambulo__sweep_begin("s", scratch_path(state, "f.yaml"),
-                                       scratch_path(state, "p.yaml"), NULL, NULL, &s),
+                                       scratch_path(state, "p.yaml"), "", NULL, NULL, &s),
                    AMBULO_OK);
   return s;
 }
@@ -72,7 +72,7 @@ static void a_base_that_is_none(void **state) {
   ambulo_sweep *s = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(
-      ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "none.yaml"), NULL, list, &s),
+      ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "none.yaml"), "", NULL, list, &s),
       AMBULO_E_IO);
   assert_null(s);
   assert_message(list, 0, "none.yaml: error[E_IO]");
@@ -89,7 +89,7 @@ static void memory_may_give_out(void **state) {
     const char *overrides[] = {"time.intervals=8"};
     int index;
     ambulo_status status =
-        ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "p.yaml"), &allocator, NULL, &s);
+        ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "p.yaml"), "", &allocator, NULL, &s);
     if (!status) status = ambulo__sweep_append(s, "n", overrides, 1, -1, NULL, &index);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     ambulo_sweep_free(s);

@@ -47,7 +47,7 @@ static ambulo__record finish(void **state) {
   make_result(state);
   assert_int_equal(ambulo__record_take_result(*state, id, &plain, NULL, &r, &taken), AMBULO_OK);
   assert_int_equal(taken, 1);
-  assert_int_equal(ambulo__record_write(*state, id, &r, &plain, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__record_write(*state, id, &r, "", &plain, NULL), AMBULO_OK);
   return r;
 }
 
@@ -63,7 +63,7 @@ static void a_round_trip(void **state) {
   ambulo__record r = sample(), back;
   ambulo__damage damage;
   assert_int_equal(find(state, 1, &back, &damage), AMBULO__FOUND_NOTHING);
-  assert_int_equal(ambulo__record_write(*state, id, &r, &plain, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__record_write(*state, id, &r, "", &plain, NULL), AMBULO_OK);
   assert_int_equal(find(state, 1, &back, &damage), AMBULO__FOUND_INTACT);
   assert_true(back.key == r.key && back.origin == r.origin && back.signal == 9);
   assert_string_equal(back.state, "timeout");
@@ -98,9 +98,13 @@ static void other_inputs_and_earlier_versions_are_stale(void **state) {
   assert_int_equal(ambulo__record_find(*state, id, KEY + 1, 1, &plain, &finding, &back, &damage),
                    AMBULO_OK);
   assert_int_equal(finding, AMBULO__FOUND_STALE);
-  scratch_write(scratch_path(state, record_path),
-                "{\"schema\": \"ambulo-case/1\", \"id\": \"000000001-0000abcd\"}\n");
-  assert_int_equal(find(state, 1, &back, &damage), AMBULO__FOUND_STALE);
+  static const char *const earlier[] = {
+      "{\"schema\": \"ambulo-case/1\", \"id\": \"000000001-0000abcd\"}\n",
+      "{\"schema\": \"ambulo-case/2\", \"id\": \"000000001-0000abcd\"}\n"};
+  for (int i = 0; i < 2; i++) {
+    scratch_write(scratch_path(state, record_path), earlier[i]);
+    assert_int_equal(find(state, 1, &back, &damage), AMBULO__FOUND_STALE);
+  }
 }
 
 /* every byte of the record changed, every length cut */
@@ -169,11 +173,11 @@ static void contradictions_are_seen(void **state) {
     if (i == 2) (void)snprintf(r.state, sizeof r.state, "great");
     if (i == 3) r.files.count = 1; /* valid, and no result */
     if (i == 4) r.signal = 1000;
-    assert_int_equal(ambulo__record_write(*state, id, &r, &plain, NULL), AMBULO_OK);
+    assert_int_equal(ambulo__record_write(*state, id, &r, "", &plain, NULL), AMBULO_OK);
     assert_int_equal(find(state, 1, &back, &damage), AMBULO__FOUND_DAMAGED);
   }
   /* the record of another case in this one's place */
-  assert_int_equal(ambulo__record_write(*state, "000000002-0000abcd", &right, &plain, NULL), 0);
+  assert_int_equal(ambulo__record_write(*state, "000000002-0000abcd", &right, "", &plain, NULL), 0);
   assert_int_equal(rename(scratch_path(state, "cases/cd/000000002-0000abcd.json"),
                           scratch_path(state, record_path)),
                    0);
@@ -224,7 +228,7 @@ static void without_memory_nothing_is_called_damaged(void **state) {
       } else if (call == 1) {
         status = ambulo__record_take_result(*state, id, &hook, NULL, &r, &taken);
       } else {
-        status = ambulo__record_write(*state, "000000003-0000abcd", &r, &hook, NULL);
+        status = ambulo__record_write(*state, "000000003-0000abcd", &r, "", &hook, NULL);
       }
       assert_int_equal(memory.live, 0);
       assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);

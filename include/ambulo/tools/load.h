@@ -58,6 +58,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load(
     const char *path, const char *const *overrides, int override_count,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+/* The files that a problem was read from, with their SHA-256, as sha256sum writes and checks them:
+ * a line "<64 digits>  <path>" each. "" of a problem made without files; lives as long as the
+ * problem.
+ */
+AMBULO_API const char *ambulo_problem_inputs(const ambulo_problem *problem);
 /* The text of a problem file that is in memory already. */
 typedef struct ambulo_problem_text {
   size_t size; /* set by ambulo_problem_text_default() */

@@ -22,6 +22,8 @@ typedef struct ambulo_report_options {
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
                         a walk in gait.svg; NULL: none */
   const ambulo_sensitivity_list *sensitivities; /* NULL: summary.json has none */
+  const char *inputs; /* ambulo_problem_inputs of the problem that this one was made from; NULL: of
+                         this one */
 } ambulo_report_options;
 AMBULO_TOOL_DEFAULT(ambulo_report_options);
 

@@ -55,8 +55,9 @@ struct ambulo_problem {
   ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
   ambulo_model
-      *extended_model;  /* `model` where capsules have rows (problem/queries.c); else NULL */
-  ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
+      *extended_model; /* `model` where capsules have rows (problem/queries.c); else NULL */
+  ambulo__pairs pairs; /* what automatic collision came to; all 0 of a problem with others */
+  char *inputs;        /* the files it was read from (formats/inputs.h); NULL: none, or a variant */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section *free; /* one block (solver/free_trial.c); NULL: nothing is free */
   const ambulo_problem *extends;     /* what this one extends (problem/variants.c); NULL: none */

@@ -354,6 +354,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__definition_free(&a, &p->definition);
   ambulo__pairs_free(&a, &p->pairs);
   ambulo__free(&a, p->obstacle_names);
+  ambulo__free(&a, p->inputs);
   ambulo_model_free(p->extended_model);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p->free);

@@ -160,6 +160,7 @@ typedef struct source {
   size_t length;
   const char *const *override; /* [overrides] "path=value" */
   int overrides;
+  ambulo__inputs *inputs; /* of which the file is one; NULL */
 } source;
 
 /* "path=value" put into the document */
@@ -184,6 +185,19 @@ static ambulo_status apply_override(ambulo__yaml *document, const char *override
   return status;
 }
 
+static ambulo_status load_file(const source *from, const ambulo_allocator *allocator,
+                               ambulo_diagnostics *diagnostics, ambulo__yaml **document) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status = ambulo__inputs_read(from->inputs, from->path, AMBULO__YAML_MAX_BYTES, &own,
+                                             diagnostics, &text, &length);
+  if (!status)
+    status = ambulo__yaml_load_text(text, length, from->path, &own, diagnostics, document);
+  ambulo__free(&own, text);
+  return status;
+}
+
 static ambulo_status load(const source *from, const ambulo_subject *subject,
                           const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                           ambulo_model **model) {
@@ -191,7 +205,7 @@ static ambulo_status load(const source *from, const ambulo_subject *subject,
   ambulo_subject own;
   ambulo_status status = take_subject(subject, diagnostics, &own);
   if (!status)
-    status = from->path ? ambulo__yaml_load(from->path, allocator, diagnostics, &document)
+    status = from->path ? load_file(from, allocator, diagnostics, &document)
                         : ambulo__yaml_load_text(from->text, from->length, from->name, allocator,
                                                  diagnostics, &document);
   for (int i = 0; i < from->overrides && !status; i++)
@@ -211,14 +225,24 @@ ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
   return ambulo__conclude(diagnostics, errors, status, path);
 }
 
+ambulo_status ambulo__model_load_input(ambulo__inputs *inputs, const char *path,
+                                       const char *const *overrides, int override_count,
+                                       const ambulo_subject *subject,
+                                       const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo_model **model) {
+  const source from = {
+      .path = path, .override = overrides, .overrides = override_count, .inputs = inputs};
+  return load(&from, subject, allocator, diagnostics, model);
+}
+
 ambulo_status ambulo_model_load_with(const char *path, const char *const *overrides,
                                      int override_count, const ambulo_subject *subject,
                                      const ambulo_allocator *allocator,
                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
-  const source from = {.path = path, .override = overrides, .overrides = override_count};
   if (!path || !model || override_count < 0 || (override_count > 0 && !overrides))
     return AMBULO_E_ARGUMENT;
-  return load(&from, subject, allocator, diagnostics, model);
+  return ambulo__model_load_input(NULL, path, overrides, override_count, subject, allocator,
+                                  diagnostics, model);
 }
 
 ambulo_status ambulo_model_load_text(const char *text, size_t length, const char *name,

@@ -6,6 +6,7 @@
 #ifndef AMBULO_DEFINITIONS_MODEL_READER_H
 #define AMBULO_DEFINITIONS_MODEL_READER_H
 
+#include "formats/inputs.h"
 #include "formats/yaml_node.h"
 #include "ambulo/tools/load.h"
 #include "model/model_check.h"
@@ -51,6 +52,13 @@ typedef struct ambulo__reader {
   ambulo__place *row_places;
   char *row_names;
 } ambulo__reader;
+
+/* ambulo_model_load_with, and takes the file in (formats/inputs.h). */
+ambulo_status ambulo__model_load_input(ambulo__inputs *inputs, const char *path,
+                                       const char *const *overrides, int override_count,
+                                       const ambulo_subject *subject,
+                                       const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo_model **model);
 
 /* Items of an optional sequence, at most `limit`: *count and 1, or 0 after E_LIMIT or E_SCHEMA. */
 int ambulo__read_count(const ambulo__yaml_node *list, const char *what, int limit, int *count);

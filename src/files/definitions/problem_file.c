@@ -13,11 +13,13 @@
 #include "ambulo/tools/report.h"
 #include "base/sized.h"
 #include "definitions/problem_free.h"
+#include "definitions/problem_load.h"
 #include "formats/read_file.h"
 #include "formats/yaml_node.h"
 #include "problem/definition.h"
 #include "problem/nlp.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { FORMAT_VERSION = 1 };
@@ -98,9 +100,9 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   if (!name[0]) return;
   const char *path = ambulo__reader_path(reader, node, name);
   if (!path) return;
-  ambulo_status status =
-      ambulo_model_load_with(path, reader->model_override, reader->model_overrides, &subject,
-                             &reader->allocator, reader->diagnostics, &reader->model);
+  ambulo_status status = ambulo__model_load_input(
+      &reader->inputs, path, reader->model_override, reader->model_overrides, &subject,
+      &reader->allocator, reader->diagnostics, &reader->model);
   reader->definition.model = reader->model;
   if (!status) return;
   reader->failure = status;
@@ -262,6 +264,10 @@ static ambulo_status read_document(ambulo__problem_reader *reader, ambulo__yaml 
   ambulo_problem *created = NULL;
   if (!status) status = create(reader, root, &created);
   if (!status) status = ambulo__read_free(reader, root, created);
+  if (!status) {
+    created->inputs = ambulo__strdup(&reader->allocator, ambulo__text_data(&reader->inputs.read));
+    if (!created->inputs) status = AMBULO_E_MEMORY;
+  }
   if (status) {
     ambulo_problem_free(created);
     return status;
@@ -277,6 +283,9 @@ static ambulo__problem_reader reader_make(const ambulo_allocator *allocator,
                                    .directory = "",
                                    .definition = ambulo_problem_definition_default(),
                                    .options = ambulo_options_default()};
+  const char *expected = getenv("AMBULO_INPUTS");
+  ambulo__text_init(&reader.inputs.read, &reader.allocator);
+  reader.inputs.expected = expected && expected[0] ? expected : NULL;
   return reader;
 }
 
@@ -302,25 +311,41 @@ static ambulo_status read_text(ambulo__problem_reader *reader, ambulo_problem **
   return status;
 }
 
-ambulo_status ambulo_problem_load(const char *path, const char *const *overrides,
-                                  int override_count, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+ambulo_status ambulo__problem_load_known(const char *path, const char *const *overrides,
+                                         int override_count, ambulo__text_buffer *known,
+                                         const ambulo_allocator *allocator,
+                                         ambulo_diagnostics *diagnostics,
+                                         ambulo_problem **problem) {
   if (!path || !problem || override_count < 0 || (override_count > 0 && !overrides)) {
     return AMBULO_E_ARGUMENT;
   }
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
   char *text = NULL;
-  ambulo_status status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, &reader.allocator,
-                                           diagnostics, &text, &reader.length);
+  reader.inputs.known = known;
+  ambulo_status status = ambulo__inputs_read(&reader.inputs, path, AMBULO__YAML_MAX_BYTES,
+                                             &reader.allocator, diagnostics, &text, &reader.length);
   reader.text = text;
   reader.name = path;
   reader.override = overrides;
   reader.override_count = override_count;
   if (!status) reader.directory = directory_of(&reader, path);
   if (!status) status = reader.directory ? read_text(&reader, problem) : AMBULO_E_MEMORY;
+  ambulo__reader_clear(&reader);
   ambulo__free(&reader.allocator, text);
   return ambulo__conclude(diagnostics, errors, status, path);
+}
+
+ambulo_status ambulo_problem_load(const char *path, const char *const *overrides,
+                                  int override_count, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+  return ambulo__problem_load_known(path, overrides, override_count, NULL, allocator, diagnostics,
+                                    problem);
+}
+
+const char *ambulo_problem_inputs(const ambulo_problem *problem) {
+  const ambulo_problem *root = ambulo__problem_root(problem);
+  return root->inputs ? root->inputs : "";
 }
 
 ambulo_status ambulo_problem_load_text(const ambulo_problem_text *text,

@@ -60,7 +60,11 @@ const char *ambulo__reader_path(ambulo__problem_reader *reader, const ambulo__ya
     reader->failure = AMBULO_E_MEMORY;
     return NULL;
   }
-  if (!shipped) return path;
+  /* what is away for a moment is missed, and no other is taken for it */
+  int is_other =
+      shipped && reader->inputs.expected && !ambulo__inputs_find(reader->inputs.expected, shipped);
+  if (is_other) ambulo__free(&reader->allocator, shipped);
+  if (!shipped || is_other) return path;
   ambulo__note_shipped(reader->diagnostics, ambulo__yaml_place(node), name, shipped);
   path = copy_text(reader, shipped);
   ambulo__free(&reader->allocator, shipped);
@@ -77,6 +81,7 @@ void ambulo__reader_clear(ambulo__problem_reader *reader) {
   reader->blocks = NULL;
   ambulo_model_free(reader->model);
   reader->model = NULL;
+  ambulo__text_free(&reader->inputs.read);
 }
 
 const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key) {

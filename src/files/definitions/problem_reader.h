@@ -23,6 +23,7 @@ typedef struct ambulo__problem_reader {
   const char *directory;   /* where relative names start; "" for the current one */
   const char *text, *name; /* of the document, and what it is called */
   size_t length;
+  ambulo__inputs inputs;       /* files that it is read from */
   const char *const *override; /* [override_count], which it is read with */
   int override_count;
   ambulo__reader_block *blocks;  /* freed with the reader */

@@ -129,8 +129,8 @@ static const double *read_motion(ambulo__problem_reader *reader, const ambulo__y
   const char *path = name[0] ? ambulo__reader_path(reader, node, name) : NULL;
   if (!path) return NULL;
   ambulo__motion *motion = NULL;
-  ambulo_status status =
-      ambulo__motion_read(path, 0, &reader->allocator, reader->diagnostics, &motion);
+  ambulo_status status = ambulo__motion_read_input(&reader->inputs, path, 0, &reader->allocator,
+                                                   reader->diagnostics, &motion);
   if (status) {
     reader->failure = status;
     (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);

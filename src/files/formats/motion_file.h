@@ -19,6 +19,7 @@
 #include "ambulo/model.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
+#include "formats/inputs.h"
 #include "formats/sheet.h"
 
 #define AMBULO__MOTION_MAX_BYTES ((size_t)64 * 1024 * 1024)
@@ -55,6 +56,10 @@ void ambulo__motion_free(ambulo__motion *motion); /* accepts NULL */
  * faults of a file are reported in one go. */
 ambulo_status ambulo__motion_read(const char *path, int gaps, const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo__motion **motion);
+/* The same, and takes the file in (formats/inputs.h). */
+ambulo_status ambulo__motion_read_input(ambulo__inputs *inputs, const char *path, int gaps,
+                                        const ambulo_allocator *allocator,
+                                        ambulo_diagnostics *diagnostics, ambulo__motion **motion);
 /* The same of a text under that name. */
 ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
                                  ambulo__motion_format format, int gaps,

@@ -344,16 +344,22 @@ ambulo_status ambulo__table_read(const char *text, size_t length, const char *na
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__motion_read(const char *path, int gaps, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+ambulo_status ambulo__motion_read_input(ambulo__inputs *inputs, const char *path, int gaps,
+                                        const ambulo_allocator *allocator,
+                                        ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   char *text = NULL;
   size_t length = 0;
-  ambulo_status status =
-      ambulo__read_file(path, AMBULO__MOTION_MAX_BYTES, &own, diagnostics, &text, &length);
+  ambulo_status status = ambulo__inputs_read(inputs, path, AMBULO__MOTION_MAX_BYTES, &own,
+                                             diagnostics, &text, &length);
   if (status) return status;
   status = ambulo__table_read(text, length, path, ambulo__motion_format_of(path), gaps, &own,
                               diagnostics, motion);
   ambulo__free(&own, text);
   return status;
+}
+
+ambulo_status ambulo__motion_read(const char *path, int gaps, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return ambulo__motion_read_input(NULL, path, gaps, allocator, diagnostics, motion);
 }

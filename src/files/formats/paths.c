@@ -88,6 +88,12 @@ static int is_there(const char *path) {
   return stat(path, &entry) == 0;
 }
 
+/* nothing of that name: neither a link to nowhere, nor what cannot be looked at now */
+static int is_absent(const char *path) {
+  struct stat entry;
+  return lstat(path, &entry) != 0 && (errno == ENOENT || errno == ENOTDIR);
+}
+
 /* a relative name that stays below its folder */
 static int may_be_shipped(const char *name) {
   if (!name[0] || name[0] == '/') return 0;
@@ -102,7 +108,7 @@ ambulo_status ambulo__shipped_path(const ambulo_allocator *a, const char *path, 
                                    char **shipped) {
   const char *folder = getenv("AMBULO_MODELS");
   *shipped = NULL;
-  if (!folder || !folder[0] || !may_be_shipped(name) || is_there(path)) return AMBULO_OK;
+  if (!folder || !folder[0] || !may_be_shipped(name) || !is_absent(path)) return AMBULO_OK;
   char *found = ambulo__join_paths(a, folder, name, NULL);
   if (!found) return AMBULO_E_MEMORY;
   if (is_there(found)) {
