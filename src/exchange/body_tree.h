@@ -21,11 +21,9 @@
 /* What a geometry says of its mesh, STL (both kinds) or OBJ; read when it is asked for (a robot has
  * many, and feet few). */
 typedef struct ambulo__mesh {
-  const char *model; /* file that names it */
-  const char *file;  /* as named there: a path, package://PACKAGE/PATH, model:// or file:// */
-  double scale[3];
+  const char *file; /* as the model names it: a path, package://PACKAGE/PATH, model:// or file:// */
   int tried;
-  double *points; /* [count][3], scaled; NULL: not read, or nothing to read */
+  double *points; /* [count][3]; NULL: not read, or nothing to read */
   int count;
 } ambulo__mesh;
 
@@ -57,7 +55,8 @@ typedef struct ambulo__tree_solid {
   ambulo__shape shape;
   ambulo__rigid at; /* in the link's frame */
   double size[3];
-  ambulo__mesh *mesh; /* of a mesh; NULL: no file is named */
+  ambulo__mesh *mesh; /* of a mesh, shared by all that name the file; NULL: no file is named */
+  double scale[3];    /* of the mesh's points */
 } ambulo__tree_solid;
 
 typedef struct ambulo__tree_point {
@@ -84,6 +83,9 @@ typedef struct ambulo__tree {
   int link_count, link_capacity;
   ambulo__tree_solid *solids;
   int solid_count, solid_capacity;
+  ambulo__mesh **meshes;
+  int mesh_count, mesh_capacity;
+  size_t mesh_points; /* of those that were read */
   ambulo__tree_point *points;
   int point_count, point_capacity;
   ambulo__tree_foot *feet;
@@ -158,8 +160,8 @@ void ambulo__chain_ball(ambulo__chain *chain, const char *name, int *first);
 
 /* ------------------------------------------------- solids of feet (foot_solids.c) */
 
-/* Of the arena; NULL without memory, or where `file` is NULL or empty. */
-ambulo__mesh *ambulo__mesh_named(ambulo__arena *arena, const char *model, const char *file);
+/* The mesh of a solid, at its own size. None without memory, or where `file` is NULL or empty. */
+void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid *solid);
 
 /* Where the solids of a link would touch the ground at q = 0. */
 typedef struct ambulo__sole {
@@ -172,11 +174,10 @@ char ambulo__side_of_link(const ambulo__tree *tree, int link);
 
 /* The sole of a link and all that is fixed to it; axes: forward, left, up. Meshes count where it
  * has no other solids. 0, with the number of meshes, if those cannot be read either. */
-int ambulo__sole_of(const ambulo__tree *tree, int link, const double axes[3][3],
-                    ambulo__sole *sole);
+int ambulo__sole_of(ambulo__tree *tree, int link, const double axes[3][3], ambulo__sole *sole);
 /* The link with the lowest sole, of meshes where there are none of other solids, among those whose
  * names say `side`; -1 without. */
-int ambulo__lowest_link(const ambulo__tree *tree, const double axes[3][3], char side);
+int ambulo__lowest_link(ambulo__tree *tree, const double axes[3][3], char side);
 
 /* ------------------------------------ left and right in names (mirror_pairs.c) */
 

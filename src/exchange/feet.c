@@ -26,7 +26,7 @@ typedef struct feet {
 
 /* whether some joint leaves the plane of forward and up */
 static int is_spatial(const feet *f) {
-  const ambulo__tree *t = f->tree;
+  ambulo__tree *t = f->tree;
   for (int i = 0; i < t->link_count; i++) {
     double axis[3];
     ambulo__rigid place = ambulo__tree_place(t, i);
@@ -212,7 +212,7 @@ static int has_foot(const ambulo__tree *t, const char *name) {
 
 /* The link of one side that is a foot: named so, and with a sole if one of those has one; -1. */
 static int guess(const feet *f, char side) {
-  const ambulo__tree *t = f->tree;
+  ambulo__tree *t = f->tree;
   int best = -1;
   for (int i = 0; i < t->link_count; i++) {
     ambulo__sole sole;

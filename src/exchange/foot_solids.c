@@ -27,7 +27,8 @@
  */
 
 enum { HEAD = 84, TRIANGLE = 50, ABOVE = 6 };
-static const size_t most_bytes = (size_t)64 << 20;
+/* a file; vertices of all meshes of feet together, which is more than any one file has */
+static const size_t most_bytes = (size_t)64 << 20, most_points = (size_t)4 << 20;
 
 static uint32_t little_endian(const char *at) {
   uint32_t value = 0;
@@ -44,7 +45,7 @@ static double float_at(const char *at) {
 
 static void add(ambulo__mesh *mesh, const double p[3]) {
   if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) return;
-  for (int i = 0; i < 3; i++) mesh->points[3 * mesh->count + i] = mesh->scale[i] * p[i];
+  for (int i = 0; i < 3; i++) mesh->points[3 * mesh->count + i] = p[i];
   mesh->count++;
 }
 
@@ -85,14 +86,21 @@ static int read_lines(ambulo__mesh *mesh, const char *text, const char *word) {
   return count;
 }
 
-static void read_text(ambulo__arena *arena, ambulo__mesh *mesh, const char *text, size_t length) {
+static void read_text(ambulo__tree *tree, ambulo__mesh *mesh, const char *text, size_t length) {
   uint32_t triangles = length >= HEAD ? little_endian(text + 80) : 0;
   int binary = length >= HEAD && length == HEAD + TRIANGLE * (size_t)triangles;
   const char *word = strncmp(text, "solid", 5) == 0 ? "vertex" : "v";
   size_t count = binary ? 3 * (size_t)triangles : (size_t)read_lines(mesh, text, word);
   if (count == 0) return;
-  mesh->points = ambulo__arena_take(arena, 3 * count, sizeof *mesh->points);
+  if (count > most_points - tree->mesh_points) {
+    ambulo__tree_note(tree, NULL,
+                      "mesh '%.80s' is left out: the meshes of feet have more than %zu vertices",
+                      mesh->file, most_points);
+    return;
+  }
+  mesh->points = ambulo__arena_take(tree->arena, 3 * count, sizeof *mesh->points);
   if (!mesh->points) return;
+  tree->mesh_points += count;
   if (binary)
     read_binary(mesh, text, triangles);
   else
@@ -121,9 +129,8 @@ static char *beside(const ambulo_allocator *allocator, const char *model, const 
   return NULL;
 }
 
-static char *find(const ambulo_allocator *allocator, const ambulo__mesh *mesh) {
+static char *find(const ambulo_allocator *allocator, const char *model, const char *file) {
   static const char *const schemes[] = {"package://", "model://", "file://"};
-  const char *file = mesh->file;
   int in_package = 0;
   for (int i = 0; i < 3; i++) {
     size_t length = strlen(schemes[i]);
@@ -132,29 +139,41 @@ static char *find(const ambulo_allocator *allocator, const ambulo__mesh *mesh) {
     in_package = i < 2;
     break;
   }
-  char *path = beside(allocator, mesh->model, file, in_package ? ABOVE : 0);
+  char *path = beside(allocator, model, file, in_package ? ABOVE : 0);
   const char *inner = in_package ? strchr(file, '/') : NULL;
-  if (!path && inner) path = beside(allocator, mesh->model, inner + 1, ABOVE);
+  if (!path && inner) path = beside(allocator, model, inner + 1, ABOVE);
   return path;
 }
 
-ambulo__mesh *ambulo__mesh_named(ambulo__arena *arena, const char *model, const char *file) {
-  if (!model || !file || !file[0]) return NULL;
-  ambulo__mesh *mesh = ambulo__arena_take(arena, 1, sizeof *mesh);
-  if (mesh) *mesh = (ambulo__mesh){.model = model, .file = file, .scale = {1.0, 1.0, 1.0}};
-  return mesh;
+void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid *solid) {
+  if (!tree->path || !file || !file[0]) return;
+  for (int i = 0; i < 3; i++) solid->scale[i] = 1.0;
+  for (int i = 0; i < tree->mesh_count && !solid->mesh; i++)
+    if (strcmp(tree->meshes[i]->file, file) == 0) solid->mesh = tree->meshes[i];
+  if (solid->mesh || !ambulo__arena_grow(tree->arena, &tree->meshes, tree->mesh_count,
+                                         &tree->mesh_capacity, sizeof(ambulo__mesh *)))
+    return;
+  solid->mesh = ambulo__arena_take(tree->arena, 1, sizeof *solid->mesh);
+  if (!solid->mesh) return;
+  solid->mesh->file = file;
+  tree->meshes[tree->mesh_count++] = solid->mesh;
 }
 
-static void read_mesh(ambulo__arena *arena, ambulo__mesh *mesh) {
+static void read_mesh(ambulo__tree *tree, ambulo__mesh *mesh) {
+  const ambulo_allocator *a = &tree->arena->allocator;
   char *text = NULL;
   size_t length = 0;
   if (mesh->tried) return;
   mesh->tried = 1;
-  char *path = find(&arena->allocator, mesh);
-  if (path && !ambulo__read_file(path, most_bytes, &arena->allocator, NULL, &text, &length))
-    read_text(arena, mesh, text, length);
-  ambulo__free(&arena->allocator, text);
-  ambulo__free(&arena->allocator, path);
+  char *path = find(a, tree->path, mesh->file);
+  ambulo_status status =
+      path ? ambulo__read_file(path, most_bytes, a, NULL, &text, &length) : AMBULO_E_IO;
+  if (!status) read_text(tree, mesh, text, length);
+  if (status == AMBULO_E_LIMIT)
+    ambulo__tree_note(tree, NULL, "mesh '%.80s' is left out: it has more than %zu MB", mesh->file,
+                      most_bytes >> 20);
+  ambulo__free(a, text);
+  ambulo__free(a, path);
 }
 
 /* ------------------------------------------------------------------------ soles */
@@ -247,22 +266,22 @@ static void widen(ambulo__sole *sole, int pass, const double p[3]) {
   sole->across[1] = fmax(sole->across[1], p[1]);
 }
 
-static void widen_by_mesh(const ambulo__tree *tree, const ambulo__tree_solid *s,
-                          const double axes[3][3], int pass, ambulo__sole *sole) {
+static void widen_by_mesh(ambulo__tree *tree, const ambulo__tree_solid *s, const double axes[3][3],
+                          int pass, ambulo__sole *sole) {
   if (!s->mesh) return;
-  read_mesh(tree->arena, s->mesh);
+  read_mesh(tree, s->mesh);
   ambulo__rigid link = ambulo__tree_place(tree, s->link);
   ambulo__rigid place = ambulo__rigid_times(&link, &s->at);
   for (int k = 0; k < s->mesh->count; k++) {
-    double world[3], p[3];
-    ambulo__rigid_point(&place, s->mesh->points + 3 * k, world);
+    double own[3], world[3], p[3];
+    for (int i = 0; i < 3; i++) own[i] = s->scale[i] * s->mesh->points[3 * k + i];
+    ambulo__rigid_point(&place, own, world);
     for (int i = 0; i < 3; i++) p[i] = ambulo__dot(axes[i], world);
     widen(sole, pass, p);
   }
 }
 
-static int measure(const ambulo__tree *tree, choice of, const double axes[3][3],
-                   ambulo__sole *sole) {
+static int measure(ambulo__tree *tree, choice of, const double axes[3][3], ambulo__sole *sole) {
   double p[MOST][3];
   *sole = (ambulo__sole){
       .along = {INFINITY, -INFINITY}, .across = {INFINITY, -INFINITY}, .height = INFINITY};
@@ -283,7 +302,7 @@ static int measure(const ambulo__tree *tree, choice of, const double axes[3][3],
 }
 
 /* from solids that are no meshes: toes of their own may belong to it */
-static int sole_of_solids(const ambulo__tree *tree, int leader, const double axes[3][3],
+static int sole_of_solids(ambulo__tree *tree, int leader, const double axes[3][3],
                           ambulo__sole *sole) {
   int found = measure(tree, (choice){leader, 0, 0}, axes, sole);
   if (!found || sole->along[1] - sole->along[0] >= shortest) return found;
@@ -294,26 +313,28 @@ static int sole_of_solids(const ambulo__tree *tree, int leader, const double axe
   return sole->along[1] - sole->along[0] >= 1e-3;
 }
 
-static int sole_of_meshes(const ambulo__tree *tree, int leader, const double axes[3][3],
+static int sole_of_meshes(ambulo__tree *tree, int leader, const double axes[3][3],
                           ambulo__sole *sole) {
   return measure(tree, (choice){leader, 0, 1}, axes, sole) &&
          sole->along[1] - sole->along[0] >= 1e-3;
 }
 
-int ambulo__sole_of(const ambulo__tree *tree, int link, const double axes[3][3],
-                    ambulo__sole *sole) {
+int ambulo__sole_of(ambulo__tree *tree, int link, const double axes[3][3], ambulo__sole *sole) {
   int leader = rigid_leader(tree, link);
   if (sole_of_solids(tree, leader, axes, sole)) return 1;
   return sole->solids == 0 && sole->meshes > 0 && sole_of_meshes(tree, leader, axes, sole);
 }
 
-int ambulo__lowest_link(const ambulo__tree *tree, const double axes[3][3], char side) {
+int ambulo__lowest_link(ambulo__tree *tree, const double axes[3][3], char side) {
   int lowest = -1;
   double height = INFINITY;
-  for (int meshes = 0; meshes < 2 && lowest < 0; meshes++) {
+  int *seen = ambulo__arena_take(tree->arena, (size_t)tree->link_count + 1, sizeof *seen);
+  for (int meshes = 0; seen && meshes < 2 && lowest < 0; meshes++) {
     for (int s = 0; s < tree->solid_count; s++) {
       ambulo__sole sole;
       int leader = rigid_leader(tree, tree->solids[s].link);
+      if (seen[leader] > meshes) continue; /* its other solids were measured with it */
+      seen[leader] = meshes + 1;
       if (ambulo__side_of_link(tree, leader) != side) continue;
       int found = meshes ? sole_of_meshes(tree, leader, axes, &sole)
                          : sole_of_solids(tree, leader, axes, &sole);

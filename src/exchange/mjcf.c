@@ -129,26 +129,21 @@ static void apply(ambulo_coordinate *c, const double bounds[2], int others) {
   }
 }
 
-/* whether an actuator before this one has the same joint */
-static int has_earlier(const ambulo__xml_node *set, const ambulo__xml_node *node,
-                       const char *joint) {
-  for (const ambulo__xml_node *n = set->first; n && n != node; n = n->next) {
-    const char *other = ambulo__xml_attribute(n, "joint");
-    if (other && strcmp(other, joint) == 0) return 1;
-  }
-  return 0;
-}
-
 static void read_actuators(ambulo__mjcf *m) {
-  int elsewhere = 0;
+  int elsewhere = 0, number = 0;
+  int *seen = ambulo__arena_take(m->tree->arena, (size_t)m->tree->link_count + 1, sizeof *seen);
+  if (!seen) return;
   AMBULO__XML_EACH (set, m->root, "actuator") {
+    number++;
     for (const ambulo__xml_node *n = set->first; n; n = n->next) {
       const char *joint = ambulo__xml_attribute(n, "joint");
       int link = joint ? ambulo__tree_find_coordinate(m->tree, joint) : -1;
       double bounds[2];
       elsewhere += link < 0;
-      if (link >= 0 && bounds_of(m, n, bounds))
-        apply(&m->tree->links[link].coordinate, bounds, has_earlier(set, n, joint));
+      if (link < 0) continue;
+      int others = seen[link] == number; /* of this set */
+      seen[link] = number;
+      if (bounds_of(m, n, bounds)) apply(&m->tree->links[link].coordinate, bounds, others);
     }
   }
   if (elsewhere)
@@ -179,6 +174,10 @@ static void read_compiler(ambulo__mjcf *m, const ambulo__xml_node *compiler) {
     m->angle = ambulo__xml_choice(m->xml, compiler, "angle", angle, angles, 2) == 1
                    ? 1.0
                    : 0.017453292519943295;
+  const char *assets = ambulo__xml_attribute(compiler, "assetdir");
+  const char *meshes = ambulo__xml_attribute(compiler, "meshdir");
+  if (assets) m->mesh_folder = assets;
+  if (meshes) m->mesh_folder = meshes;
   if (frame) (void)ambulo__xml_choice(m->xml, compiler, "coordinate", frame, frames, 1);
   read_sequence(m, compiler);
   int from = ambulo__mjcf_flag(m, compiler, NULL, "inertiafromgeom", -1);
@@ -241,6 +240,7 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
   tree->format = "MuJoCo";
   if (name && name[0]) tree->name = name;
   include_files(tree->xml, root, path);
+  ambulo__mjcf_index(&m);
   tree->gravity[0] = tree->gravity[1] = 0.0;
   tree->gravity[2] = -9.81;
   tree->up = 'z';

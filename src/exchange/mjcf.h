@@ -20,12 +20,26 @@ typedef struct ambulo__mjcf {
   int automatic_limits, groups[2];
   ambulo__mjcf_inertia inertia;
   double least_mass, least_inertia, total_mass;
+  const char *mesh_folder;          /* NULL: that of the model */
+  struct ambulo__mjcf_names *names; /* mjcf_index.c */
   /* what is left out, counted */
   int armatures, springs;
   int unnamed;
   double *key; /* qpos of the start pose [key_count]; NULL: none */
   int key_count, key_used;
 } ambulo__mjcf;
+
+/* ------------------------------------------ what has a name (mjcf_index.c) */
+
+/* Once the included files are in. NULL in m->names: no memory. */
+void ambulo__mjcf_index(ambulo__mjcf *m);
+/* What a default class, NULL: the top one, and the classes around it say; NULL: nothing. */
+const char *ambulo__mjcf_default(const ambulo__mjcf *m, const char *name, const char *tag,
+                                 const char *attribute);
+/* <asset><mesh> of that name, which is by default that of its file; NULL: none. */
+const ambulo__xml_node *ambulo__mjcf_mesh(const ambulo__mjcf *m, const char *name);
+/* Whether an actuator names the joint. */
+int ambulo__mjcf_is_driven(const ambulo__mjcf *m, const char *joint);
 
 /* ------------------------------------------------ attributes (mjcf_geoms.c) */
 

@@ -256,23 +256,12 @@ static void read_mass(reading *b, int link) {
   ambulo__tree_body(m->tree, link, &body, at, at);
 }
 
-/* whether an actuator names the joint */
-static int is_driven(const ambulo__mjcf *m, const char *joint) {
-  AMBULO__XML_EACH (set, m->root, "actuator") {
-    for (const ambulo__xml_node *n = set->first; n; n = n->next) {
-      const char *other = ambulo__xml_attribute(n, "joint");
-      if (other && strcmp(other, joint) == 0) return 1;
-    }
-  }
-  return 0;
-}
-
 /* joints of a root of its own that nothing drives */
 static void free_root(reading *b, int first) {
   ambulo__tree *t = b->m->tree;
   for (int i = first; i < t->link_count && b->joints >= 2; i++) {
     ambulo_coordinate *c = &t->links[i].coordinate;
-    if (c->name && !is_driven(b->m, c->name)) c->actuated = 0;
+    if (c->name && !ambulo__mjcf_is_driven(b->m, c->name)) c->actuated = 0;
   }
 }
 

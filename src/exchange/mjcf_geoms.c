@@ -12,50 +12,12 @@
 #include <math.h>
 #include <string.h>
 
-/* the <default> of a class, anywhere below; several of one name add up: the first that has `tag`
- * with the attribute counts */
-static const char *below(const ambulo__xml_node *set, const char *name, const char *tag,
-                         const char *attribute, int top, const ambulo__xml_node **found) {
-  const char *own = ambulo__xml_attribute(set, "class");
-  if (top && !own) own = "main";
-  int here = name ? own && strcmp(own, name) == 0 : top;
-  if (here) {
-    *found = set;
-    AMBULO__XML_EACH (n, set, tag) {
-      const char *text = ambulo__xml_attribute(n, attribute);
-      if (text) return text;
-    }
-  }
-  AMBULO__XML_EACH (n, set, "default") {
-    const char *text = below(n, name, tag, attribute, 0, found);
-    if (text) return text;
-  }
-  return NULL;
-}
-
-/* of a class and those around it, outwards */
-static const char *of_class(const ambulo__mjcf *m, const char *name, const char *tag,
-                            const char *attribute) {
-  const ambulo__xml_node *found = NULL;
-  const char *text = NULL;
-  for (const ambulo__xml_node *n = ambulo__xml_child(m->root, "default"); n && !text;
-       n = ambulo__xml_next(n, "default"))
-    text = below(n, name, tag, attribute, 1, &found);
-  for (const ambulo__xml_node *n = found ? found->parent : NULL;
-       n && !text && ambulo__xml_is(n, "default"); n = n->parent) {
-    for (const ambulo__xml_node *e = ambulo__xml_child(n, tag); e && !text;
-         e = ambulo__xml_next(e, tag))
-      text = ambulo__xml_attribute(e, attribute);
-  }
-  return text;
-}
-
 const char *ambulo__mjcf_text(const ambulo__mjcf *m, const ambulo__xml_node *node,
                               const char *around, const char *attribute) {
   const char *text = ambulo__xml_attribute(node, attribute);
   const char *name = ambulo__xml_attribute(node, "class");
   if (text) return text;
-  return of_class(m, name ? name : around, node->name, attribute);
+  return ambulo__mjcf_default(m, name ? name : around, node->name, attribute);
 }
 
 int ambulo__mjcf_numbers(const ambulo__mjcf *m, const ambulo__xml_node *node, const char *around,
@@ -223,33 +185,14 @@ static int needed(int type, int stretched) {
   return stretched && type != SPHERE ? 1 : sizes[type];
 }
 
-/* the file of <asset><mesh name=...>, whose name is by default that of the file */
-static ambulo__mesh *mesh_of(ambulo__mjcf *m, const char *name) {
-  const char *folder = NULL;
-  AMBULO__XML_EACH (n, m->root, "compiler") {
-    if (ambulo__xml_attribute(n, "assetdir")) folder = ambulo__xml_attribute(n, "assetdir");
-    if (ambulo__xml_attribute(n, "meshdir")) folder = ambulo__xml_attribute(n, "meshdir");
-  }
-  for (const ambulo__xml_node *set = ambulo__xml_child(m->root, "asset"); set && name;
-       set = ambulo__xml_next(set, "asset")) {
-    AMBULO__XML_EACH (n, set, "mesh") {
-      const char *file = ambulo__mjcf_text(m, n, NULL, "file");
-      const char *own = ambulo__xml_attribute(n, "name");
-      if (!file) continue;
-      const char *base = ambulo__xml_last_name(file);
-      const char *dot = strrchr(base, '.');
-      size_t length = dot ? (size_t)(dot - base) : strlen(base);
-      int same =
-          own ? strcmp(own, name) == 0 : strncmp(base, name, length) == 0 && name[length] == '\0';
-      if (!same) continue;
-      ambulo__mesh *mesh = ambulo__mesh_named(
-          m->tree->arena, m->tree->path,
-          folder ? ambulo__arena_print(m->tree->arena, "%s/%s", folder, file) : file);
-      if (mesh) (void)ambulo__mjcf_numbers(m, n, NULL, "scale", 3, 3, mesh->scale);
-      return mesh;
-    }
-  }
-  return NULL;
+/* of the file of <asset><mesh> */
+static void read_mesh(ambulo__mjcf *m, const char *name, ambulo__tree_solid *solid) {
+  const ambulo__xml_node *mesh = name ? ambulo__mjcf_mesh(m, name) : NULL;
+  if (!mesh) return;
+  const char *file = ambulo__mjcf_text(m, mesh, NULL, "file");
+  if (m->mesh_folder) file = ambulo__arena_print(m->tree->arena, "%s/%s", m->mesh_folder, file);
+  ambulo__tree_mesh(m->tree, file, solid);
+  (void)ambulo__mjcf_numbers(m, mesh, NULL, "scale", 3, 3, solid->scale);
 }
 
 static int read_shape(ambulo__mjcf *m, const ambulo__xml_node *geom, const char *around, int type,
@@ -260,7 +203,7 @@ static int read_shape(ambulo__mjcf *m, const ambulo__xml_node *geom, const char 
   double ends[6];
   solid->shape = shapes[type];
   if (solid->shape == AMBULO__MESH) {
-    solid->mesh = mesh_of(m, ambulo__mjcf_text(m, geom, around, "mesh"));
+    read_mesh(m, ambulo__mjcf_text(m, geom, around, "mesh"), solid);
     return 1;
   }
   int stretched = ambulo__mjcf_numbers(m, geom, around, "fromto", 6, 6, ends) == 6;

@@ -176,9 +176,7 @@ void ambulo__osim_contacts(ambulo__osim *o) {
                                 .shape = sphere ? AMBULO__SPHERE : AMBULO__MESH,
                                 .at = ambulo__rigid_times(&place, &shift)};
     (void)ambulo__xml_child_vector(o->xml, n, "radius", 1, 0, solid.size);
-    if (mesh)
-      solid.mesh =
-          ambulo__mesh_named(o->tree->arena, o->tree->path, ambulo__osim_text(n, "filename", NULL));
+    if (mesh) ambulo__tree_mesh(o->tree, ambulo__osim_text(n, "filename", NULL), &solid);
     ambulo__tree_add_solid(o->tree, &solid);
   }
 }

@@ -205,9 +205,8 @@ static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node 
   for (int i = 0; i < 4; i++)
     if (ambulo__xml_is(shape, names[i])) solid.shape = shapes[i];
   if (solid.shape == AMBULO__MESH) {
-    solid.mesh =
-        ambulo__mesh_named(tree->arena, tree->path, ambulo__xml_attribute(shape, "filename"));
-    if (solid.mesh) (void)ambulo__xml_vector(tree->xml, shape, "scale", 3, solid.mesh->scale);
+    ambulo__tree_mesh(tree, ambulo__xml_attribute(shape, "filename"), &solid);
+    if (solid.mesh) (void)ambulo__xml_vector(tree->xml, shape, "scale", 3, solid.scale);
   } else if (solid.shape == AMBULO__BOX) {
     if (!ambulo__xml_vector(tree->xml, shape, "size", 3, solid.size)) return;
     for (int i = 0; i < 3; i++) solid.size[i] *= 0.5;

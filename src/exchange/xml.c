@@ -280,11 +280,40 @@ static void entity(void *user, const XML_Char *name, int is_parameter, const XML
        "the document declares an entity; expected none");
 }
 
+/* The name of a document type may stand; what a document type elsewhere, or a part of it, declares
+ * would be missing: expat leaves out each entity that may be declared there, and does not say so.
+ */
+static const char elsewhere[] =
+    "the document type is declared outside of the document; expected none";
+
+static void doctype(void *user, const XML_Char *name, const XML_Char *system,
+                    const XML_Char *public_id, int has_own) {
+  (void)name, (void)has_own;
+  if (system || public_id)
+    stop(user, AMBULO_E_PARSE, "remove <!DOCTYPE ...>, and replace entities by their text",
+         elsewhere);
+}
+
+static int not_standalone(void *user) {
+  stop(user, AMBULO_E_PARSE, "remove <!DOCTYPE ...>, and replace entities by their text",
+       elsewhere);
+  return XML_STATUS_ERROR;
+}
+
+static void skipped(void *user, const XML_Char *name, int is_parameter) {
+  (void)name, (void)is_parameter;
+  stop(user, AMBULO_E_PARSE, "replace the entity by its text",
+       "the document refers to an entity that it does not declare; expected none");
+}
+
 static void parse(building *b, const char *text, size_t length) {
   XML_SetUserData(b->parser, b);
   XML_SetElementHandler(b->parser, begin, end);
   XML_SetCharacterDataHandler(b->parser, characters);
   XML_SetEntityDeclHandler(b->parser, entity);
+  XML_SetStartDoctypeDeclHandler(b->parser, doctype);
+  XML_SetNotStandaloneHandler(b->parser, not_standalone);
+  XML_SetSkippedEntityHandler(b->parser, skipped);
   enum XML_Status outcome = XML_Parse(b->parser, text, (int)length, 1);
   if (b->status || outcome == XML_STATUS_OK) return;
   enum XML_Error code = XML_GetErrorCode(b->parser);

@@ -1,8 +1,9 @@
 /* exchange/xml.h - an XML document as a tree that remembers file, line and column.
  *
- * Elements with their attributes and their text; comments, processing instructions and the
- * document type are passed over. Entities of a document's own are refused, so that none can unfold
- * into more than was read. At most 64 MiB a file, a million elements, 200 levels.
+ * Elements with their attributes and their text; comments and processing instructions are passed
+ * over. Entities of a document's own are refused, so that none can unfold into more than was read;
+ * document types outside of it too, so that nothing that they declare is missing. At most 64 MiB a
+ * file, a million elements, 200 levels.
  *
  * Parsing is expat's. A library that was built without it (AMBULO_HAS_EXPAT is not defined) refuses
  * every document with a message that says so. */

@@ -143,6 +143,94 @@ static void unreadable(void **state) {
   }
 }
 
+/* --------------------------------------------------------- what large meshes take */
+
+typedef struct meter {
+  size_t live, most;
+} meter;
+
+/* the size of a block stands before it */
+static void *measured(void *user, void *pointer, size_t size) {
+  enum { HEAD = 64 };
+  meter *m = user;
+  char *block = pointer ? (char *)pointer - HEAD : NULL;
+  if (block) m->live -= *(size_t *)(void *)block;
+  if (size == 0) {
+    free(block);
+    return NULL;
+  }
+  block = realloc(block, size + HEAD);
+  if (!block) return NULL;
+  *(size_t *)(void *)block = size;
+  m->live += size;
+  if (m->live > m->most) m->most = m->live;
+  return block + HEAD;
+}
+
+/* binary, of so many triangles in one point: a hole */
+static void write_large(const char *path, uint32_t count) {
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fseek(file, 80, SEEK_SET), 0);
+  for (int b = 0; b < 4; b++) assert_true(fputc((int)(count >> (8 * b) & 255), file) >= 0);
+  assert_int_equal(fseek(file, 83 + 50 * (long)count, SEEK_SET), 0);
+  assert_int_equal(fputc(0, file), 0);
+  assert_int_equal(fclose(file), 0);
+}
+
+static void write_feet(const char *path, int count, int files) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  (void)fputs("<mujoco><asset>", file);
+  for (int i = 0; i < files; i++) (void)fprintf(file, "<mesh name='m%d' file='m%d.stl'/>", i, i);
+  (void)fputs(
+      "</asset><worldbody><body name='b'><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>"
+      "<joint name='hip' axis='1 0 0'/><body name='foot_r'>",
+      file);
+  for (int i = 0; i < count; i++)
+    (void)fprintf(file, "<geom type='mesh' mesh='m%d' mass='0' pos='.%d 0 -.5'/>", i % files, i);
+  (void)fputs("</body></body></worldbody></mujoco>", file);
+  assert_int_equal(fclose(file), 0);
+}
+
+/* sixteen geoms of one file take as much as one */
+static void meshes_are_shared(void **state) {
+  enum { TRIANGLES = 20000 };
+  size_t most[2];
+  write_large(scratch_path(state, "m0.stl"), TRIANGLES);
+  for (int k = 0; k < 2; k++) {
+    const char *path = scratch_path(state, "feet.xml");
+    meter m = {0, 0};
+    ambulo_allocator memory = {measured, &m};
+    char *text = NULL;
+    write_feet(path, k ? 16 : 2, 1);
+    skip_without_expat();
+    assert_int_equal(ambulo_import_model(path, NULL, NULL, &memory, NULL, &text), AMBULO_OK);
+    ambulo_text_free(text, &memory);
+    assert_int_equal(m.live, 0);
+    most[k] = m.most;
+  }
+  assert_true(most[1] < most[0] + 200000);
+  assert_true(most[0] < (size_t)TRIANGLES * (50 + 3 * 24) + 200000);
+}
+
+static void large_ones_are_left_out(void **state) {
+  enum { MOST = 1398100 }; /* triangles: of 4194304 vertices, nearly */
+  write_large(scratch_path(state, "m0.stl"), 1000);
+  write_large(scratch_path(state, "m1.stl"), MOST);
+  write_large(scratch_path(state, "m2.stl"), MOST - 100000);
+  write_feet(scratch_path(state, "feet.xml"), 3, 3);
+  import_case c = import_file(scratch_path(state, "feet.xml"), NULL);
+  assert_int_equal(c.status, AMBULO_OK);
+  assert_told(&c, "mesh 'm1.stl' is left out: it has more than 64 MB");
+  import_shut(&c);
+  write_large(scratch_path(state, "m1.stl"), MOST - 100000);
+  c = import_file(scratch_path(state, "feet.xml"), NULL);
+  assert_int_equal(c.status, AMBULO_OK);
+  assert_told(&c, "mesh 'm2.stl' is left out: the meshes of feet have more than 4194304 vertices");
+  import_shut(&c);
+}
+
 /* lengths of a URDF are whole: a cylinder and a capsule that lie along x */
 static void lengths_of_a_urdf(void **state) {
 #define FOOT(shape)                                                                                \
@@ -172,6 +260,8 @@ int main(void) {
       cmocka_unit_test_setup_teardown(lengths_of_a_urdf, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(mujoco, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(shank_above_a_foot, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(meshes_are_shared, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(large_ones_are_left_out, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(unreadable, scratch_open, scratch_close)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,6 +65,29 @@ static void entities(void **state) {
              AMBULO_E_PARSE, "the document declares an entity");
 }
 
+/* expat leaves out what may be declared elsewhere: half a number would be read */
+static void what_is_declared_elsewhere(void **state) {
+  static const char *const types[] = {
+      "<!DOCTYPE robot SYSTEM 'robot.dtd'>", "<!DOCTYPE robot PUBLIC '-//R//EN' 'robot.dtd'>",
+      "<!DOCTYPE robot SYSTEM 'robot.dtd' []>", "<!DOCTYPE robot [%undef;]>",
+      "<!DOCTYPE robot [<!ELEMENT robot ANY> %undef; <!ATTLIST robot name CDATA 'x'>]>"};
+  static const char *const robots[] = {"<robot name='1&undef;0'/>", "<robot>1&undef;0</robot>",
+                                       "<robot/>"};
+  for (int i = 0; i < 5; i++) {
+    for (int k = 0; k < 3; k++) {
+      char text[300];
+      (void)snprintf(text, sizeof text, "<?xml version='1.0'?>\n%s\n%s", types[i], robots[k]);
+      import_bad(state, text, AMBULO_E_PARSE, "t.xml:2:");
+    }
+  }
+  /* where all of it is here, expat knows */
+  import_bad(state, "<!DOCTYPE robot [<!ELEMENT robot ANY>]><robot name='1&undef;0'/>",
+             AMBULO_E_PARSE, "undefined entity");
+  import_bad(state, "<?xml version='1.0' standalone='yes'?><!DOCTYPE r SYSTEM 'r.dtd'><r/>",
+             AMBULO_E_PARSE, "the document type is declared outside of the document");
+  import_bad(state, "<!DOCTYPE robot [<!ELEMENT robot ANY>]><robot/>", AMBULO_E_MODEL, "");
+}
+
 static void too_deep(void **state) {
   enum { LEVELS = 300 };
   char text[LEVELS * 7 + 1] = "";
@@ -86,8 +109,12 @@ static void too_large(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept),   cmocka_unit_test(numbers),
-                                     cmocka_unit_test(what_is_no_xml), cmocka_unit_test(entities),
-                                     cmocka_unit_test(too_deep),       cmocka_unit_test(too_large)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept),
+                                     cmocka_unit_test(numbers),
+                                     cmocka_unit_test(what_is_no_xml),
+                                     cmocka_unit_test(entities),
+                                     cmocka_unit_test(what_is_declared_elsewhere),
+                                     cmocka_unit_test(too_deep),
+                                     cmocka_unit_test(too_large)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
