@@ -72,6 +72,11 @@ int ambulo__cli_is_batch(const char *directory) {
   return stat(path, &entry) == 0;
 }
 
+int ambulo__cli_census_code(const ambulo_batch_census *c) {
+  if (c->corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
+  return c->missing + c->stale > 0 ? 1 : 0;
+}
+
 /* --------------------------------------------------------------------- options */
 
 /* "LINK:KG:X,Y,Z" */

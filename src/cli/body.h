@@ -43,6 +43,10 @@ ambulo_status ambulo__cli_load(const ambulo__cli_input *input, const char *file,
                                ambulo_diagnostics *diagnostics, ambulo__cli_body *body);
 /* Whether a batch has filled the folder. */
 int ambulo__cli_is_batch(const char *directory);
+/* The exit code for what a command found in one: 4 with damaged cases, 1 with missing or stale
+ * ones.
+ */
+int ambulo__cli_census_code(const ambulo_batch_census *census);
 /* A model or a problem file under the options of the body. Returns 0, or an exit code after a usage
  * error; *status tells how loading went. */
 int ambulo__cli_body_load(const ambulo__cli_input *input, const char *file,

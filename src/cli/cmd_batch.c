@@ -103,7 +103,7 @@ static int collect_front(const char *directory, int quiet) {
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
   ambulo_diagnostics_free(diagnostics);
   if (!code && !quiet) print_front(&census.front);
-  return code;
+  return code || census.corrupt == 0 ? code : ambulo__cli_census_code(&census);
 }
 
 static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
@@ -190,9 +190,7 @@ static int print_status(const char *directory, int verify) {
          c.done, c.failed, c.missing, c.stale, c.corrupt);
   if (c.done > 0) printf("seconds  %.2f per case\n", c.seconds / c.done);
   printf("running  %s\n", c.holder[0] ? c.holder : "no");
-  if (!verify) return 0;
-  if (c.corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
-  return c.missing + c.stale > 0 ? 1 : 0;
+  return verify || c.corrupt > 0 ? ambulo__cli_census_code(&c) : 0;
 }
 
 static int run(const ambulo__cli_input *input) {
@@ -278,8 +276,7 @@ static int print_census(const char *directory, const ambulo_batch_census *c) {
   } else if (incomplete) {
     printf("run 'ambulo batch' with -o %s again to complete it\n", directory);
   }
-  if (c->corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
-  return incomplete ? 1 : 0;
+  return ambulo__cli_census_code(c);
 }
 
 /* a folder, but none that a batch has filled: most likely a result folder */

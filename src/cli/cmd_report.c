@@ -58,15 +58,19 @@ static int run(const ambulo__cli_input *input) {
   if (!code) {
     options.body = body.model;
     options.ground_height = body.ground_height;
+    ambulo_batch_census census;
+    memset(&census, 0, sizeof census);
     int study =
         input->argument_count == 1 && !options.motion && ambulo__cli_is_batch(input->arguments[0]);
     if (!status)
-      status = study ? ambulo_batch_page(input->arguments[0], output, &options, NULL, diagnostics)
+      status = study ? ambulo_batch_page(input->arguments[0], output, &options, NULL, diagnostics,
+                                         &census)
                      : ambulo_page_write(input->arguments, input->argument_count, output, &options,
                                          NULL, diagnostics);
     code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
+    if (!code) printf("written to %s\n", output);
+    if (!code) code = ambulo__cli_census_code(&census);
   }
-  if (!code) printf("written to %s\n", output);
   free(output);
   ambulo__cli_body_free(&body);
   ambulo_diagnostics_free(diagnostics);
@@ -95,7 +99,8 @@ const ambulo__cli_command ambulo__cli_report = {
         "of\n"
         "a batch folder has a table of its cases, a plot of any two columns, and its front; a "
         "click\n"
-        "shows the motion of a case. See docs/guide-page.md.",
+        "shows the motion of a case; its exit code is that of 'ambulo collect'. See\n"
+        "docs/guide-page.md.",
     .example = "ambulo report walk\n"
                "ambulo report walks",
     .options = options_table,

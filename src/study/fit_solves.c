@@ -196,6 +196,17 @@ static ambulo_status find_record(const ambulo__fit_runner *r, int index, ambulo_
                              &damage);
 }
 
+/* of a solve that has ended: a record that cannot be read is no failure of the solve */
+static ambulo_status expect_record(const ambulo__fit_runner *r, int index, ambulo__finding *finding,
+                                   ambulo__record *record) {
+  ambulo__place place = {r->solves, 0, 0, NULL};
+  ambulo_status status = find_record(r, index, finding, record);
+  if (status || *finding != AMBULO__FOUND_DAMAGED) return status;
+  return ambulo__error(r->diagnostics, AMBULO_E_IO, place,
+                       "what is finished is kept; run the same command again",
+                       "the record of case %s cannot be read", r->sweep->cases[index].id);
+}
+
 ambulo_status ambulo__fit_state(const ambulo__fit_runner *r, int index, char state[24]) {
   ambulo__finding finding = AMBULO__FOUND_NOTHING;
   ambulo__record record;
@@ -279,7 +290,7 @@ static ambulo_status score(ambulo__fit_runner *r, ambulo__fit_scope scope, ambul
     ambulo__finding finding = AMBULO__FOUND_NOTHING;
     ambulo__record record;
     if (!is_asked(r->fit, scope, c)) continue;
-    status = find_record(r, t->index[c], &finding, &record);
+    status = expect_record(r, t->index[c], &finding, &record);
     if (status) break;
     int is_known = finding == AMBULO__FOUND_INTACT;
     if (!is_known && r->wish) {

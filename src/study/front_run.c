@@ -45,7 +45,7 @@ static ambulo_status read_point(runner *r, int k, int *known) {
   if (status) return status;
   *known = finding == AMBULO__FOUND_INTACT && !ambulo__record_was_cut(&record, seconds, megabytes);
   if (!*known || !record.valid) return AMBULO_OK;
-  return ambulo__front_read_point(r->directory, one->id, &r->front, r->allocator,
+  return ambulo__front_read_point(r->directory, one->id, &r->front, r->allocator, r->diagnostics,
                                   &r->front.point[k]);
 }
 
@@ -257,7 +257,7 @@ ambulo_status ambulo__front_census(const ambulo__table *t, ambulo_diagnostics *d
                                   .largest_gap = report->largest,
                                   .mean_gap = report->mean};
   for (int i = 0; i < f->terms && i < f->points; i++)
-    if (!f->point[i].solved)
+    if (!f->point[i].solved && !t->damage[i].what[0])
       ambulo__warning(diagnostics, place, "a front needs all its ends",
                       "no front: '%s' has no valid solution", t->study->cases[i].name);
   if (report->complete && !report->conflict)

@@ -259,6 +259,7 @@ enum { TOTAL, PER, DISTANCE, TERMS, OUTPUTS = TERMS + AMBULO__FRONT_TERMS };
 
 ambulo_status ambulo__front_read_point(const char *directory, const char *id,
                                        const ambulo__front *f, const ambulo_allocator *a,
+                                       ambulo_diagnostics *diagnostics,
                                        ambulo__front_point *point) {
   char text[OUTPUTS][PART] = {"objective.total", "free.per", "free.distance"};
   const char *path[OUTPUTS];
@@ -268,8 +269,9 @@ ambulo_status ambulo__front_read_point(const char *directory, const char *id,
   for (int i = 0; i < terms; i++)
     (void)snprintf(text[TERMS + i], PART, "objective.terms.%.140s", f->name[i]);
   for (int i = 0; i < TERMS + terms; i++) path[i] = text[i];
-  ambulo_status status = ambulo__outputs_of(directory, id, path, TERMS + terms, a, NULL, value);
-  if (status) return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
+  ambulo_status status =
+      ambulo__outputs_of(directory, id, path, TERMS + terms, a, diagnostics, value);
+  if (status) return status;
   double by = strcmp(value[PER].text, "distance") == 0 ? value[DISTANCE].number : 1.0;
   int solved = value[TOTAL].kind == AMBULO__OUTPUT_NUMBER && by > 0.0;
   point->total = value[TOTAL].number / by;

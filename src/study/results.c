@@ -44,6 +44,14 @@ static void fill_cells(reader *r, int index) {
   for (int i = 0; i < t->outputs; i++) *cell++ = r->value[i].text;
 }
 
+/* ambulo__damage_of of a result folder's file: that of the first reason */
+static ambulo_status damage_of_reading(ambulo_status status, const ambulo_diagnostics *reasons,
+                                       ambulo__damage *damage) {
+  const ambulo_diagnostic *reason = ambulo_diagnostics_get(reasons, 0);
+  const char *file = reason && reason->file ? strrchr(reason->file, '/') : NULL;
+  return ambulo__damage_of(status, file ? file : "/", reasons, damage);
+}
+
 /* outputs of an intact case; a file that cannot be read after all makes it a damaged one */
 static ambulo_status read_outputs(reader *r, const char *id, ambulo__finding *finding) {
   const ambulo__table *t = r->table;
@@ -55,9 +63,7 @@ static ambulo_status read_outputs(reader *r, const char *id, ambulo__finding *fi
                                             &t->study->allocator, r->reasons, r->value);
   if (!status) return AMBULO_OK;
   *finding = AMBULO__FOUND_DAMAGED;
-  const ambulo_diagnostic *reason = ambulo_diagnostics_get(r->reasons, 0);
-  const char *file = reason && reason->file ? strrchr(reason->file, '/') : NULL;
-  return ambulo__damage_of(status, file ? file : "/", r->reasons, &r->damage);
+  return damage_of_reading(status, r->reasons, &r->damage);
 }
 
 /* the state of a row */
@@ -82,6 +88,11 @@ static ambulo_status read_row(reader *r, int k, ambulo__row *row) {
   ambulo_status status =
       ambulo__record_find(t->directory, one->id, one->key, r->depth != AMBULO__RECORDS,
                           &t->study->allocator, &finding, &r->record, &r->damage);
+  /* a point that the front lacks is none that a later look finds intact */
+  if (!status && r->depth == AMBULO__CELLS && t->damage && t->damage[k].what[0]) {
+    finding = AMBULO__FOUND_DAMAGED;
+    r->damage = t->damage[k];
+  }
   if (!status && r->depth == AMBULO__CELLS) status = read_outputs(r, one->id, &finding);
   if (status) return status;
   if (r->depth == AMBULO__CELLS) fill_cells(r, k);
@@ -130,15 +141,24 @@ static ambulo_status take_point(void *user, const ambulo__row *row) {
     const char *cell = ambulo_sweep_value(t->study, row->index, i);
     if (!ambulo__parse_double(cell, strlen(cell), &p->weight[i])) return AMBULO_OK;
   }
+  ambulo__damage *damage = &t->damage[row->index];
+  if (row->damage) *damage = *row->damage;
   if (!row->valid) return AMBULO_OK;
-  return ambulo__front_read_point(t->directory, row->id, &t->front, &t->study->allocator, p);
+  const ambulo_allocator *a = &t->study->allocator;
+  ambulo_diagnostics *reasons = ambulo_diagnostics_create(a);
+  if (!reasons) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__front_read_point(t->directory, row->id, &t->front, a, reasons, p);
+  if (status) status = damage_of_reading(status, reasons, damage);
+  ambulo_diagnostics_free(reasons);
+  return status;
 }
 
 static ambulo_status read_front(ambulo__table *t) {
   int count = t->study->case_count;
   t->front = t->study->front;
   t->front.point = ambulo__alloc(&t->study->allocator, (size_t)count, sizeof *t->front.point);
-  if (!t->front.point) return AMBULO_E_MEMORY;
+  t->damage = ambulo__alloc(&t->study->allocator, (size_t)count, sizeof *t->damage);
+  if (!t->front.point || !t->damage) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__table_rows(t, AMBULO__FILES, take_point, t, NULL);
   t->front.points = count;
   if (!status) ambulo__front_judge(&t->front, &t->report);
@@ -179,6 +199,7 @@ ambulo_status ambulo__table_open(const char *directory, ambulo__depth depth,
 void ambulo__table_close(ambulo__table *t) {
   if (!t->study) return;
   ambulo__free(&t->study->allocator, t->front.point);
+  ambulo__free(&t->study->allocator, t->damage);
   ambulo__free(&t->study->allocator, (void *)t->title);
   ambulo_sweep_free(t->study);
   t->study = NULL;
@@ -220,19 +241,21 @@ static void json_cell(ambulo__text_buffer *lines, const char *key, const char *t
     ambulo__json_text(&json, key, typed && !text[0] ? NULL : text);
 }
 
-static void warn_of_damage(const collector *c, const ambulo__row *row) {
-  const ambulo_allocator *a = &c->table->study->allocator;
-  char *path = ambulo__case_path(a, c->table->directory, row->id, row->damage->ending);
-  ambulo__place place = {path ? path : c->table->directory, 0, 0, NULL};
-  ambulo__warning(c->diagnostics, place, NULL, "damaged: %s; case '%s' is left out",
-                  row->damage->what, row->name);
+void ambulo__row_warn(const ambulo__table *t, const ambulo__row *row,
+                      ambulo_diagnostics *diagnostics) {
+  const ambulo_allocator *a = &t->study->allocator;
+  if (!row->damage) return;
+  char *path = ambulo__case_path(a, t->directory, row->id, row->damage->ending);
+  ambulo__place place = {path ? path : t->directory, 0, 0, NULL};
+  ambulo__warning(diagnostics, place, NULL, "damaged: %s; case '%s' is left out", row->damage->what,
+                  row->name);
   ambulo__free(a, path);
 }
 
 static ambulo_status add_row(void *user, const ambulo__row *row) {
   collector *c = user;
   const ambulo__table *t = c->table;
-  if (row->damage) warn_of_damage(c, row);
+  ambulo__row_warn(t, row, c->diagnostics);
   if (row->valid) c->solved = row->index;
   ambulo__text_append(&c->csv, row->id);
   csv_cell(&c->csv, row->name);

@@ -30,12 +30,12 @@ ambulo_status ambulo__outputs_of(const char *directory, const char *id, const ch
  * column of its motion. 0: nothing near, or a file that could not be read: it is only a hint. */
 int ambulo__output_nearest(const char *directory, const char *id, const char *output,
                            const ambulo_allocator *allocator, char *near, size_t size);
-/* Fills value, total and solved of a point of a front whose files are intact; weight is set. What
- * cannot be read is not solved. E_MEMORY. */
+/* Fills value, total and solved of a point of a front whose files are intact; weight is set. Errors
+ * as of ambulo__outputs_of. */
 ambulo_status ambulo__front_read_point(const char *directory, const char *id,
                                        const ambulo__front *front,
                                        const ambulo_allocator *allocator,
-                                       ambulo__front_point *point);
+                                       ambulo_diagnostics *diagnostics, ambulo__front_point *point);
 
 /* ------------------------------------------------------------------- results.c */
 
@@ -46,8 +46,9 @@ typedef struct ambulo__table {
   ambulo_sweep *study;
   ambulo__front front; /* judged; of no points where the study has none */
   ambulo__front_report report;
-  int columns, outputs; /* of the columns, the last so many */
-  const char **title;   /* [columns] */
+  int columns, outputs;   /* of the columns, the last so many */
+  const char **title;     /* [columns] */
+  ambulo__damage *damage; /* [cases] of a front: what could not be read of a point; "": all could */
 } ambulo__table;
 
 /* How much of a case is looked at. */
@@ -77,6 +78,10 @@ void ambulo__table_close(ambulo__table *table);
 ambulo_status ambulo__table_rows(const ambulo__table *table, ambulo__depth depth,
                                  ambulo_status (*take)(void *user, const ambulo__row *row),
                                  void *user, ambulo_batch_census *census);
+
+/* Warns of a row with damage, which is left out. */
+void ambulo__row_warn(const ambulo__table *table, const ambulo__row *row,
+                      ambulo_diagnostics *diagnostics);
 
 /* front_run.c: fills the census, and warns of what a reader of the front has to know: gaps that
  * refuse to close, terms that are not at odds, anchors without a solution. E_MEMORY. */

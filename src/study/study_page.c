@@ -11,10 +11,12 @@
  * The first `axes` columns are the axes, of which the first `zipped` advance together. A front has
  * the columns of its terms, the cases along it, and the places behind which no weights lead to the
  * next one (front.h). */
+#include "formats/atomic_file.h"
 #include "show/page.h"
 #include "study/case_pack.h"
 #include "study/results.h"
 
+#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -25,6 +27,7 @@ typedef struct page {
   int *number;   /* [cases]: which they are */
   char **folder; /* [cases]: where */
   char *shown;   /* [cases]: its motion is in the page */
+  ambulo_diagnostics *diagnostics;
 } page;
 
 /* the folder of a case, where it has one */
@@ -36,9 +39,12 @@ static ambulo_status find_folder(page *p, const ambulo__row *row) {
     if (strcmp(row->state, without[i]) == 0) return AMBULO_OK;
   char *folder = ambulo__case_path(a, p->table.directory, row->id, "");
   if (!folder) return AMBULO_E_MEMORY;
-  if (stat(folder, &entry) != 0 || !S_ISDIR(entry.st_mode)) {
+  int there = stat(folder, &entry) == 0;
+  if (!there || !S_ISDIR(entry.st_mode)) {
+    ambulo_status status =
+        there || errno == ENOENT ? AMBULO_OK : ambulo__io_error(p->diagnostics, folder, "inspect");
     ambulo__free(a, folder);
-    return AMBULO_OK;
+    return status;
   }
   p->number[p->count] = row->index;
   p->folder[p->count++] = folder;
@@ -47,6 +53,7 @@ static ambulo_status find_folder(page *p, const ambulo__row *row) {
 
 static ambulo_status add_row(void *user, const ambulo__row *row) {
   page *p = user;
+  ambulo__row_warn(&p->table, row, p->diagnostics);
   ambulo__text_append(&p->rows, row->index ? ",{\"id\":" : "{\"id\":");
   ambulo__script_text(&p->rows, row->id);
   ambulo__text_append(&p->rows, ",\"name\":");
@@ -128,8 +135,7 @@ static ambulo_status add_table(const page *p, ambulo__text_buffer *out) {
 }
 
 /* in `room` bytes; what the table leaves is for motions: with all of them it is the longest */
-static ambulo_status add_study(page *p, double room, ambulo__text_buffer *out,
-                               ambulo_diagnostics *diagnostics) {
+static ambulo_status add_study(page *p, double room, ambulo__text_buffer *out) {
   ambulo__text_buffer table;
   ambulo__text_init_part(&table, out);
   ambulo__text_append(out, "\"study\":{\"name\":");
@@ -140,7 +146,7 @@ static ambulo_status add_study(page *p, double room, ambulo__text_buffer *out,
   memset(p->shown, 0, (size_t)p->count);
   room -= (double)(table.length + out->length);
   ambulo__text_clear(&table);
-  if (!status) status = ambulo__case_pack(out, p->folder, p->count, room, diagnostics, p->shown);
+  if (!status) status = ambulo__case_pack(out, p->folder, p->count, room, p->diagnostics, p->shown);
   if (!status) status = add_table(p, &table);
   ambulo__text_append(out, ",\"table\":");
   ambulo__text_append(out, ambulo__text_data(&table));
@@ -149,18 +155,18 @@ static ambulo_status add_study(page *p, double room, ambulo__text_buffer *out,
   return status ? status : ambulo__text_status(out);
 }
 
-static void warn_of_left_out(const page *p, double megabytes, ambulo_diagnostics *diagnostics) {
+static void warn_of_left_out(const page *p, double megabytes) {
   ambulo__place place = {.file = p->table.directory};
   int left_out = p->count;
   for (int i = 0; i < p->count; i++) left_out -= p->shown[i];
   if (left_out > 0)
-    ambulo__warning(diagnostics, place, "--size takes more (in C: megabytes)",
+    ambulo__warning(p->diagnostics, place, "--size takes more (in C: megabytes)",
                     "%d case%s in the table without motion: %g MB are the most that the page takes",
                     left_out, left_out == 1 ? " is" : "s are", megabytes);
 }
 
 static ambulo_status fill(page *p, double megabytes, ambulo__text_buffer *out,
-                          ambulo_diagnostics *diagnostics) {
+                          ambulo_batch_census *census) {
   const ambulo_allocator *a = &out->allocator;
   size_t cases = (size_t)p->table.study->case_count;
   double room = 1e6 * megabytes - (double)ambulo__viewer_size;
@@ -169,9 +175,9 @@ static ambulo_status fill(page *p, double megabytes, ambulo__text_buffer *out,
   p->folder = ambulo__alloc(a, cases, sizeof *p->folder);
   p->shown = ambulo__alloc(a, cases, 1);
   ambulo_status status = p->number && p->folder && p->shown ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status) status = ambulo__table_rows(&p->table, AMBULO__CELLS, add_row, p, NULL);
-  if (!status) status = add_study(p, room, out, diagnostics);
-  if (!status) warn_of_left_out(p, megabytes, diagnostics);
+  if (!status) status = ambulo__table_rows(&p->table, AMBULO__CELLS, add_row, p, census);
+  if (!status) status = add_study(p, room, out);
+  if (!status) warn_of_left_out(p, megabytes);
   for (int i = 0; p->folder && i < p->count; i++) ambulo__free(a, p->folder[i]);
   ambulo__free(a, p->number);
   ambulo__free(a, (void *)p->folder);
@@ -182,22 +188,24 @@ static ambulo_status fill(page *p, double megabytes, ambulo__text_buffer *out,
 
 ambulo_status ambulo_batch_page(const char *directory, const char *output,
                                 const ambulo_page_options *options,
-                                const ambulo_allocator *allocator,
-                                ambulo_diagnostics *diagnostics) {
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_batch_census *census) {
   ambulo_page_options own;
+  ambulo_batch_census counted;
   if (!directory) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = ambulo__page_begin(options, output, diagnostics, &own);
   if (status == AMBULO_E_ARGUMENT) return status;
-  page p = {.count = 0};
+  page p = {.diagnostics = diagnostics};
   ambulo__text_buffer data;
   ambulo__text_init(&data, allocator);
   ambulo__text_append_char(&data, '{');
   if (!status)
     status = ambulo__table_open(directory, AMBULO__CELLS, allocator, diagnostics, &p.table);
-  if (!status) status = fill(&p, own.megabytes, &data, diagnostics);
+  if (!status) status = fill(&p, own.megabytes, &data, &counted);
   ambulo__text_append_char(&data, '}');
   if (!status) status = ambulo__page_save(output, &data, diagnostics);
+  if (!status && census) *census = counted;
   ambulo__table_close(&p.table);
   ambulo__text_free(&data);
   return ambulo__conclude(diagnostics, errors, status, output);

@@ -54,7 +54,7 @@ static char *packed_in(const char *page, const char *key) {
 static void a_page_of_a_study(void **state) {
   fake_batch b;
   const char *folder = study_folder(state, &b), *path = scratch_path(state, "page.html");
-  assert_int_equal(ambulo_batch_page(folder, path, NULL, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo_batch_page(folder, path, NULL, NULL, NULL, NULL), AMBULO_OK);
   char *page = read_whole(path), *table = packed_in(page, "table");
   assert_null(strstr(table, "<how>"));
   assert_non_null(strstr(table, "{\"columns\":[\"T, s\",\"objective\",\"\\u003chow>\"],"
@@ -74,7 +74,7 @@ static void without_room_there_are_no_motions(void **state) {
   ambulo_page_options options = ambulo_page_options_default();
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   options.megabytes = 0.0;
-  assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, list), AMBULO_OK);
+  assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, list, NULL), AMBULO_OK);
   assert_message(list, 0, "2 cases are in the table without motion: 0 MB");
   char *page = read_whole(path), *table = packed_in(page, "table");
   assert_non_null(strstr(table, "\"shown\":[]}"));
@@ -93,7 +93,7 @@ static void pages_keep_to_their_size(void **state) {
   double size[2], count = 20.0;
   for (int i = 0; i < 2; i++) {
     options.megabytes = i ? 3.0 : 0.0;
-    assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, NULL), AMBULO_OK);
+    assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, NULL, NULL), AMBULO_OK);
     char *page = read_whole(path);
     size[i] = (double)strlen(page);
     free(page);
@@ -101,7 +101,7 @@ static void pages_keep_to_their_size(void **state) {
   for (int i = 1; i < (int)count; i++) {
     double most = size[0] + 100.0 + (size[1] - size[0]) * i / count;
     options.megabytes = 1e-6 * most;
-    assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, NULL), AMBULO_OK);
+    assert_int_equal(ambulo_batch_page(folder, path, &options, NULL, NULL, NULL), AMBULO_OK);
     char *page = read_whole(path);
     assert_true((double)strlen(page) <= most);
     free(page);
@@ -114,14 +114,14 @@ static void what_is_refused(void **state) {
   const char *folder = study_folder(state, &b), *path = scratch_path(state, "page.html");
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   scratch_write(path, "<!doctype html><p>my thesis</p>");
-  assert_int_equal(ambulo_batch_page(folder, path, NULL, NULL, list), AMBULO_E_IO);
+  assert_int_equal(ambulo_batch_page(folder, path, NULL, NULL, list, NULL), AMBULO_E_IO);
   assert_file_equal(path, "<!doctype html><p>my thesis</p>");
   assert_int_equal(ambulo_batch_page(scratch_path(state, "walk"), scratch_path(state, "p.html"),
-                                     NULL, NULL, list),
+                                     NULL, NULL, list, NULL),
                    AMBULO_E_IO);
   assert_int_not_equal(access(scratch_path(state, "p.html"), F_OK), 0);
-  assert_int_equal(ambulo_batch_page(NULL, path, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_batch_page(folder, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_batch_page(NULL, path, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_batch_page(folder, NULL, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_page_write(&folder, 1, scratch_path(state, "p.html"), NULL, NULL, list),
                    AMBULO_E_SCHEMA);
   ambulo_diagnostics_free(list);
@@ -134,7 +134,7 @@ static void memory_may_run_out_anywhere(void **state) {
   for (long k = 0;; k += 1 + k / 20) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
-    ambulo_status status = ambulo_batch_page(folder, path, NULL, &allocator, NULL);
+    ambulo_status status = ambulo_batch_page(folder, path, NULL, &allocator, NULL, NULL);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     assert_int_equal(memory.live, 0);
     assert_int_equal(access(path, F_OK) == 0, status == AMBULO_OK);

@@ -152,13 +152,14 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
                                                                ambulo_batch_census *census);
 
 /* Writes the page of a batch folder: its table, plots and motions, also of a batch that still runs.
- * Of the options overwrite and megabytes count. Errors: as ambulo_page_write and
- * ambulo_batch_status. */
+ * Of the options overwrite and megabytes count. What is damaged, as ambulo_batch_collect does;
+ * census may be NULL. Errors: as ambulo_page_write and ambulo_batch_status. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_page(const char *directory,
                                                             const char *output,
                                                             const ambulo_page_options *options,
                                                             const ambulo_allocator *allocator,
-                                                            ambulo_diagnostics *diagnostics);
+                                                            ambulo_diagnostics *diagnostics,
+                                                            ambulo_batch_census *census);
 
 /* Processes that ambulo_batch_run would use: workers where > 0, else the usable processors;
  * limited by the free memory with `megabytes` each (0: unknown). */

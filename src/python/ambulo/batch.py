@@ -279,7 +279,7 @@ class Study:
         with Call() as call:
             call(lib.ambulo_batch_page(path_of(self.folder), path_of(path),
                                        carrier.new(records.PageOptions(**options)), NULL,
-                                       call.messages))
+                                       call.messages, NULL))
         return path
 
     def __repr__(self):
