@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/guard.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
@@ -317,7 +318,8 @@ static int run_command(parser *p, char **paths) {
   }
   ambulo__cli_input input = {p->command, p->arguments, p->argument_count,
                              p->options, p->values,    p->given_count};
-  code = p->command->run(&input);
+  code = ambulo__cli_guard_words(&input);
+  if (!code) code = p->command->run(&input);
   int most = p->command->files, is_lost = code == ambulo_status_exit_code(AMBULO_E_IO);
   for (int i = 0; is_lost && i < p->argument_count && (most < 0 || i < most); i++)
     ambulo__cli_shipped_hint(p->arguments[i]);

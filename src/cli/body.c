@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "ambulo/tools/load.h"
+#include "cli/guard.h"
 #include "cli/output.h"
 
 enum { SUBJECT_KEYS = 3, OVERRIDE = 64 };
@@ -156,7 +157,10 @@ int ambulo__cli_body_load(const ambulo__cli_input *input, const char *file,
   subject_text subject = {.subject = ambulo_subject_default()};
   if (!read_load(input, &carried) || !read_subject(input, &subject)) return 2;
   *status = load(input, file, &subject, diagnostics, body);
-  return *status ? 0 : adapt(input, &carried, diagnostics, body, status);
+  if (*status) return 0;
+  int code =
+      body->problem ? ambulo__cli_guard_files(input, ambulo_problem_inputs(body->problem)) : 0;
+  return code ? code : adapt(input, &carried, diagnostics, body, status);
 }
 
 void ambulo__cli_body_free(ambulo__cli_body *body) {

@@ -1,6 +1,7 @@
 /* cli/cmd_info.c - ambulo info: what was understood of a model or a problem, as tables. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/body.h"
@@ -101,25 +102,35 @@ static void print_capsules(const ambulo_model *model) {
   }
 }
 
-/* its own mirror image, or the first difference */
-static void print_symmetry(const ambulo_model *model) {
+/* *symmetry, one line, to be freed: its own mirror image, or the first difference */
+static ambulo_status describe_symmetry(const ambulo_model *model, char **symmetry) {
+  static const char whole[] = "the body is its own mirror image, left for right";
+  static const char lead[] = "none, left for right: ";
   ambulo_diagnostics *differences = ambulo_diagnostics_create(NULL);
+  if (!differences) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo_model_check_mirror(model, NULL, differences);
   const ambulo_diagnostic *first = ambulo_diagnostics_get(differences, 0);
-  if (!status) printf("symmetry     the body is its own mirror image, left for right\n");
-  if (status == AMBULO_E_MODEL)
-    printf("symmetry     none, left for right: %s\n", first ? first->message : "it differs");
+  int differs = status == AMBULO_E_MODEL && first;
+  if (!status || differs) {
+    size_t size = sizeof whole + (differs ? sizeof lead + strlen(first->message) : 0);
+    *symmetry = malloc(size);
+    status = *symmetry ? AMBULO_OK : AMBULO_E_MEMORY;
+    if (*symmetry)
+      ambulo__cli_format(*symmetry, size, "%s%s", differs ? lead : whole,
+                         differs ? first->message : "");
+  }
   ambulo_diagnostics_free(differences);
+  return status == AMBULO_E_MODEL ? AMBULO_E_MEMORY : status; /* of no difference that is told */
 }
 
-static void print_model(const ambulo_model *model) {
+static void print_model(const ambulo_model *model, const char *symmetry) {
   const double *g = ambulo_model_gravity(model), *f = ambulo_model_forward(model);
   printf("model        %s\n", ambulo_model_name(model));
   printf("body         %.4f kg", ambulo_model_mass(model));
   if (ambulo_model_stature(model) > 0.0) printf(", %.3f m tall", ambulo_model_stature(model));
   printf("\ngravity      %g %g %g m/s^2\nforward      %g %g %g\n", g[0], g[1], g[2], f[0], f[1],
          f[2]);
-  print_symmetry(model);
+  printf("symmetry     %s\n", symmetry);
   print_links(model);
   print_coordinates(model);
   print_points(model);
@@ -301,7 +312,7 @@ static void print_holds(const ambulo_problem *problem) {
   }
 }
 
-static void print_problem(const ambulo_problem *problem) {
+static void print_problem(const ambulo_problem *problem, const char *symmetry) {
   static const char *const ends[] = {"free", "periodic", "mirrored"};
   int equalities = ambulo_problem_equality_count(problem);
   const char *name = ambulo_problem_name(problem);
@@ -330,17 +341,20 @@ static void print_problem(const ambulo_problem *problem) {
   print_devices(problem);
   print_holds(problem);
   printf("\n");
-  print_model(ambulo_problem_model(problem));
+  print_model(ambulo_problem_model(problem), symmetry);
 }
 
 static int run(const ambulo__cli_input *input) {
   const char *file = input->arguments[0];
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo__cli_body body = {.model = NULL};
+  char *symmetry = NULL;
   ambulo_status status = ambulo__cli_load(input, file, diagnostics, &body);
-  if (!status && body.problem) print_problem(body.problem);
-  if (!status && !body.problem) print_model(body.model);
+  if (!status) status = describe_symmetry(body.model, &symmetry);
+  if (!status && body.problem) print_problem(body.problem, symmetry);
+  if (!status && !body.problem) print_model(body.model, symmetry);
   int code = ambulo__cli_diagnostics(diagnostics, status, file);
+  free(symmetry);
   ambulo__cli_body_free(&body);
   ambulo_diagnostics_free(diagnostics);
   return code;

@@ -77,6 +77,7 @@ static void print_diagnostic(const ambulo_diagnostics *list, size_t index) {
 
 int ambulo__cli_diagnostics_but(const ambulo_diagnostics *diagnostics, ambulo_status status,
                                 const char *subject, const char *known) {
+  if (!diagnostics && !status) status = AMBULO_E_MEMORY; /* warnings, if any, are lost */
   size_t count = ambulo_diagnostics_count(diagnostics);
   size_t errors = ambulo_diagnostics_error_count(diagnostics), shown = 0;
   for (size_t i = 0; i < count; i++) {

@@ -19,7 +19,8 @@ int ambulo__cli_usage_error(const char *command, const char *hint, const char *f
     __attribute__((format(printf, 3, 4)));
 
 /* Prints every message of the list; if `status` is a failure that left no error in it,
- * says what the status means. Returns the exit code of `status`. */
+ * says what the status means. Returns the exit code of `status`; without a list that of E_MEMORY,
+ * if it is no failure. */
 int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
                             const char *subject);
 /* The same without messages that say what is known. NULL: all. */

@@ -302,8 +302,9 @@ static ambulo_status write_format(job *j) {
 static ambulo_status run(job *j) {
   int folder = j->options->format == AMBULO_EXPORT_OPENSIM && j->motion;
   ambulo_status status = check_asked(j);
+  const char *inputs[] = {j->motion, j->options->inverse ? j->options->inverse->forces : NULL};
   if (!status && !folder)
-    status = ambulo__output_check(j->output, &j->motion, 1, j->options->overwrite, j->diagnostics);
+    status = ambulo__output_check(j->output, inputs, 2, j->options->overwrite, j->diagnostics);
   if (!status && j->motion)
     status = ambulo__source_read(j->model, j->motion, j->options->inverse,
                                  ambulo__has_loads(j->options->problem), j->allocator,

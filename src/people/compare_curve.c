@@ -110,9 +110,9 @@ typedef struct cycles {
 ambulo_status ambulo__cycles_check(const char *motion, const char *people,
                                    const ambulo_compare_options *options,
                                    ambulo_diagnostics *diagnostics) {
-  const char *inputs[] = {motion, people, options->forces};
+  const char *inputs[] = {motion, people, options->forces, options->map};
   if (!options->cycles) return AMBULO_OK;
-  return ambulo__output_check(options->cycles, inputs, 3, options->overwrite, diagnostics);
+  return ambulo__output_check(options->cycles, inputs, 4, options->overwrite, diagnostics);
 }
 
 /* 1 for entries that go by the curve's own name */

@@ -127,6 +127,27 @@ static void without_memory_an_error_is_still_told(void **state) {
   }
 }
 
+/* of warnings and notes the first one, whatever it was short of */
+static void without_memory_a_warning_is_still_told(void **state) {
+  (void)state;
+  ambulo__place here = {"walk.yaml", 3, 4, "path"};
+  for (long k = 1; k < 6; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    memory.only_once = 1;
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo_diagnostics *list = ambulo_diagnostics_create(&hook);
+    ambulo__warning(list, here, "hint", "doubtful %d", 7);
+    ambulo__error(list, AMBULO_E_SCHEMA, here, "hint", "wrong");
+    char text[512];
+    ambulo_diagnostics_format(list, 0, text, sizeof text);
+    assert_non_null(strstr(text, "walk.yaml:3:4: warning: doubtful 7"));
+    ambulo_diagnostics_format(list, 1, text, sizeof text);
+    assert_non_null(strstr(text, "walk.yaml:3:4: error[E_SCHEMA]: wrong"));
+    ambulo_diagnostics_free(list);
+    assert_int_equal(memory.live, 0);
+  }
+}
+
 static void no_failure_is_concluded_without_an_error(void **state) {
   (void)state;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
@@ -225,6 +246,7 @@ int main(void) {
                                      cmocka_unit_test(twenty_errors_are_kept_and_all_counted),
                                      cmocka_unit_test(no_list_and_no_memory_keep_the_status),
                                      cmocka_unit_test(without_memory_an_error_is_still_told),
+                                     cmocka_unit_test(without_memory_a_warning_is_still_told),
                                      cmocka_unit_test(no_failure_is_concluded_without_an_error),
                                      cmocka_unit_test(nearest_names),
                                      cmocka_unit_test(names_and_exit_codes),

@@ -46,14 +46,15 @@ const ambulo__place ambulo__nowhere = {NULL, 0, 0, NULL};
 
 enum { MAX_ERRORS = 20, MAX_MESSAGES = 64, MAX_TEXT = 1024, MAX_WORD = 64, MAX_FILE = 512 };
 
-/* Room for an error that finds no memory. There is one for the error that says so, which is often
- * the first to be short of it, and one for an error that is about something else. */
+/* Room for a message that finds no memory. There is one for the error that says so, which is often
+ * the first to be short of it, one for an error that is about something else, and one for a
+ * warning: what follows it may have memory again. */
 typedef struct reserve {
   int used;
   char file[MAX_FILE], message[MAX_TEXT];
 } reserve;
 
-enum { FOR_MEMORY, FOR_OTHERS, RESERVES };
+enum { FOR_MEMORY, FOR_OTHERS, FOR_WARNINGS, RESERVES };
 
 struct ambulo_diagnostics {
   ambulo_allocator allocator;
@@ -133,8 +134,10 @@ static int has_room(const ambulo_diagnostics *list, ambulo_severity severity) {
 /* file and message of an item where copies of them found no memory; 0: no room left */
 static int use_reserve(ambulo_diagnostics *list, ambulo_diagnostic *item, const char *file,
                        const char *text) {
-  reserve *r = &list->reserves[item->status == AMBULO_E_MEMORY ? FOR_MEMORY : FOR_OTHERS];
-  if (item->severity != AMBULO_ERROR || r->used) return 0;
+  reserve *r = &list->reserves[item->severity != AMBULO_ERROR    ? FOR_WARNINGS
+                               : item->status == AMBULO_E_MEMORY ? FOR_MEMORY
+                                                                 : FOR_OTHERS];
+  if (r->used) return 0;
   r->used = 1;
   (void)snprintf(r->message, sizeof r->message, "%s", text);
   if (file) (void)snprintf(r->file, sizeof r->file, "%s", file);

@@ -3,6 +3,7 @@
 
 #include "formats/paths.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -179,6 +180,21 @@ static int is_own(const char *path) {
   return 0;
 }
 
+static int is_same(const struct stat *a, const struct stat *b) {
+  return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+/* of an input that is a folder: one of its files */
+static int is_in_folder(const struct stat *there, const char *folder) {
+  int found = 0;
+  DIR *stream = opendir(folder);
+  struct stat entry;
+  for (const struct dirent *e; stream && !found && (e = readdir(stream)) != NULL;)
+    found = fstatat(dirfd(stream), e->d_name, &entry, 0) == 0 && is_same(&entry, there);
+  if (stream) (void)closedir(stream);
+  return found;
+}
+
 ambulo_status ambulo__output_check(const char *output, const char *const *inputs, int count,
                                    int force, ambulo_diagnostics *diagnostics) {
   ambulo__place place = {.file = output};
@@ -187,9 +203,11 @@ ambulo_status ambulo__output_check(const char *output, const char *const *inputs
   if (force || stat(output, &there) != 0 || !S_ISREG(there.st_mode)) return AMBULO_OK;
   for (int i = 0; i < count; i++) {
     if (!inputs[i] || stat(inputs[i], &input) != 0) continue;
-    if (input.st_dev != there.st_dev || input.st_ino != there.st_ino) continue;
-    return ambulo__error(diagnostics, AMBULO_E_IO, place, hint,
-                         "the output is the input '%s' itself; it is not written over", inputs[i]);
+    int within = S_ISDIR(input.st_mode) && is_in_folder(&there, inputs[i]);
+    if (!within && !is_same(&input, &there)) continue;
+    return ambulo__error(
+        diagnostics, AMBULO_E_IO, place, hint, "the output is %s '%s'%s; it is not written over",
+        within ? "a file of the input" : "the input", inputs[i], within ? "" : " itself");
   }
   if (there.st_size == 0 || is_own(output)) return AMBULO_OK;
   return ambulo__error(diagnostics, AMBULO_E_IO, place, hint,

@@ -49,9 +49,9 @@ void ambulo__folder_abort(ambulo__folder *folder);
 #define AMBULO__OWN_MARK "# ambulo"
 
 /* AMBULO_OK if `output` may be written: nothing is there, an empty file, a device or a pipe, or a
- * file that ambulo wrote and that is none of inputs[count] (whose entries may be NULL). The same
- * file counts whatever the path to it: another spelling, a hard or a symbolic link. `force`: a file
- * is written over all the same. Errors: E_IO. */
+ * file that ambulo wrote and that is none of inputs[count] (whose entries may be NULL), nor a file
+ * of one that is a folder. The same file counts whatever the path to it: another spelling, a hard
+ * or a symbolic link. `force`: a file is written over all the same. Errors: E_IO. */
 ambulo_status ambulo__output_check(const char *output, const char *const *inputs, int count,
                                    int force, ambulo_diagnostics *diagnostics);
 
