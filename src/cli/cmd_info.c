@@ -120,7 +120,7 @@ static ambulo_status describe_symmetry(const ambulo_model *model, char **symmetr
                          differs ? first->message : "");
   }
   ambulo_diagnostics_free(differences);
-  return status == AMBULO_E_MODEL ? AMBULO_E_MEMORY : status; /* of no difference that is told */
+  return status == AMBULO_E_MODEL ? AMBULO_E_MEMORY : status; /* without a difference */
 }
 
 static void print_model(const ambulo_model *model, const char *symmetry) {

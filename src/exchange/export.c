@@ -263,7 +263,7 @@ static ambulo_status write_folder(job *j) {
                                     j->text.length, j->diagnostics);
   }
   if (!status) return ambulo__folder_commit(folder, j->diagnostics);
-  ambulo__folder_abort(folder);
+  ambulo__folder_abort(folder, j->diagnostics);
   return status;
 }
 

@@ -65,6 +65,9 @@ ambulo_status ambulo__page_result_read(const char *directory, const ambulo_alloc
                                        ambulo__page_result *result);
 void ambulo__page_result_free(ambulo__page_result *result); /* accepts a zero-filled one */
 
+/* scene_check.c: the document knows what no page can show. */
+void ambulo__page_check_scene(const ambulo__yaml_node *root);
+
 /* Appends an item of "results"; `with_strip`: with its picture, where it has one. Errors: as of
  * ambulo__page_result_read. */
 ambulo_status ambulo__page_add_result(const char *directory, int with_strip,

@@ -184,6 +184,7 @@ static ambulo_status check_same(const ambulo__page_result *r) {
     (void)ambulo__yaml_error(hash[1], AMBULO_E_SCHEMA, "the files of a folder are of one solve",
                              "input_hash is '%.20s', in summary.json '%.20s'",
                              ambulo__yaml_text(hash[1]), ambulo__yaml_text(hash[0]));
+  ambulo__page_check_scene(ambulo__yaml_root(r->scene.document));
   ambulo_status status = ambulo__yaml_finish(r->summary.document);
   return status ? status : ambulo__yaml_finish(r->scene.document);
 }

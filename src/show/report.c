@@ -99,7 +99,7 @@ ambulo_status ambulo_report_check(const char *directory, const ambulo_report_opt
   ambulo__folder *folder = NULL;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = begin(directory, &own, NULL, diagnostics, &folder);
-  if (!status) ambulo__folder_abort(folder);
+  if (!status) ambulo__folder_abort(folder, diagnostics);
   return ambulo__conclude(diagnostics, errors, status, directory);
 }
 
@@ -216,7 +216,7 @@ ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_re
   status = write_all(problem, result, &own, folder, &text, diagnostics);
   ambulo__text_free(&text);
   if (status) {
-    ambulo__folder_abort(folder);
+    ambulo__folder_abort(folder, diagnostics);
     return ambulo__conclude(diagnostics, errors, status, directory);
   }
   return ambulo__folder_commit(folder, diagnostics);

@@ -55,8 +55,8 @@ static void an_aborted_folder_leaves_nothing(void **state) {
   only_entry(*state, temporary);
   snprintf(deeper, sizeof deeper, "%s/deeper", temporary);
   assert_int_equal(mkdir(deeper, 0700), 0);
-  ambulo__folder_abort(folder);
-  ambulo__folder_abort(NULL);
+  ambulo__folder_abort(folder, NULL);
+  ambulo__folder_abort(NULL, NULL);
   assert_int_equal(entries_in(*state), 0);
 }
 
@@ -156,7 +156,7 @@ static void impossible_places_and_names_are_refused(void **state) {
   for (int i = 0; i < 4; i++) {
     assert_int_equal(ambulo__folder_write(folder, names[i], "x", 1, NULL), AMBULO_E_ARGUMENT);
   }
-  ambulo__folder_abort(folder);
+  ambulo__folder_abort(folder, NULL);
   assert_int_equal(entries_in(*state), 1);
 }
 
@@ -176,6 +176,48 @@ static void links_in_an_old_result_are_removed_not_followed(void **state) {
   assert_int_equal(entries_in(*state), 2);
 }
 
+/* the one entry that is there besides */
+static void what_cannot_be_removed_is_named(void **state) {
+  const char *path = scratch_path(state, "out");
+  char deep[SCRATCH_PATH + 64];
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__folder *folder = begin(path, NULL);
+  fill(folder, "{old}");
+  assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
+  (void)snprintf(deep, sizeof deep, "%s/motion.csv", path);
+  assert_int_equal(unlink(deep), 0);
+  for (int i = 0; i < 12; i++) { /* deeper than a result */
+    assert_int_equal(mkdir(deep, 0700), 0);
+    (void)strcat(deep, "/d");
+  }
+  folder = begin(path, &mark);
+  fill(folder, "{new}");
+  assert_int_equal(ambulo__folder_commit(folder, list), AMBULO_OK);
+  assert_file_equal(scratch_path(state, "out/summary.json"), "{new}");
+  assert_int_equal(entries_in(*state), 2);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_message(list, 0, "out.old-");
+  assert_message(list, 0, "warning: the earlier result stays here: it cannot be removed: ");
+  ambulo_diagnostics_free(list);
+}
+
+/* of this place alone, and of processes that are gone */
+static void what_a_killed_run_left_is_named(void **state) {
+  static const char *const names[] = {"out.tmp-999999999-0", "out.old-999999999-3",  "out.old-1-0",
+                                      "out.tmp-x-0",         "out2.tmp-999999999-0", "out.tmp-9"};
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  for (int i = 0; i < 6; i++) assert_int_equal(mkdir(scratch_path(state, names[i]), 0700), 0);
+  ambulo__folder *folder = begin(scratch_path(state, "out"), NULL);
+  fill(folder, "{}");
+  assert_int_equal(ambulo__folder_commit(folder, list), AMBULO_OK);
+  assert_int_equal(ambulo_diagnostics_count(list), 2);
+  int first = strstr(ambulo_diagnostics_get(list, 0)->message, ".tmp-") == NULL;
+  assert_message(list, (size_t)first, "a run that was cut off left 'out.tmp-999999999-0' here");
+  assert_message(list, (size_t)!first, "a run that was cut off left 'out.old-999999999-3' here");
+  assert_int_equal(entries_in(*state), 7);
+  ambulo_diagnostics_free(list);
+}
+
 #define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_open, scratch_close)
 
 /* a result is replaced or stays, and nothing else is left behind */
@@ -192,7 +234,7 @@ static void every_failed_allocation_is_survived(void **state) {
     ambulo_status status = ambulo__folder_begin(path, &mark, &hook, NULL, &folder);
     if (!status) status = ambulo__folder_write(folder, "summary.json", "{new}", 5, NULL);
     if (status) {
-      ambulo__folder_abort(folder);
+      ambulo__folder_abort(folder, NULL);
     } else {
       status = ambulo__folder_commit(folder, NULL);
     }
@@ -218,6 +260,8 @@ int main(void) {
       WITH_SCRATCH(what_appears_in_the_meantime_is_kept),
       WITH_SCRATCH(impossible_places_and_names_are_refused),
       WITH_SCRATCH(links_in_an_old_result_are_removed_not_followed),
+      WITH_SCRATCH(what_cannot_be_removed_is_named),
+      WITH_SCRATCH(what_a_killed_run_left_is_named),
       WITH_SCRATCH(every_failed_allocation_is_survived),
   };
   return cmocka_run_group_tests_name("base/atomic_folder", tests, NULL, NULL);

@@ -266,6 +266,7 @@
     };
     check("filters by a number", filter("time > 1.05") === 2, rows());
     check("filters by a word", filter("optimal") === 4, rows());
+    check("a word begins where it begins", filter("ptimal") === 0 && filter("opti") === 4, rows());
     check("and by nothing", filter("") === 4);
     const cells = (n) => [...document.querySelectorAll(`.cases tbody tr > :nth-child(${n})`)].map((c) => c.textContent);
     const sort = () => document.querySelector(".cases thead th:nth-child(3) button").click();

@@ -27,6 +27,7 @@ static void test_walk(void **state) {
   assert_int_equal(occurrences(svg, "<path class=\"right curve\""), 6);
   assert_non_null(strstr(svg, "Hip flexion torque, N m"));
   assert_non_null(strstr(svg, "feasible"));
+  assert_null(strstr(svg, "infeasible"));
   assert_null(strstr(svg, "nan"));
   ambulo__text_free(&text);
   walk_close(&w);

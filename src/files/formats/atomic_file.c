@@ -115,7 +115,11 @@ static ambulo_status write_through_temporary(const char *path, const char *data,
     if (status == AMBULO_OK && move_into_place(temporary, path, replace) != 0) {
       status = ambulo__io_error(diagnostics, path, "create");
     }
-    if (status != AMBULO_OK || !replace) unlink(temporary);
+    if ((status != AMBULO_OK || !replace) && unlink(temporary) != 0 && errno != ENOENT) {
+      ambulo__place place = {.file = temporary};
+      ambulo__warning(diagnostics, place, NULL, "this file stays here: it cannot be removed: %s",
+                      strerror(errno));
+    }
   }
   if (status == AMBULO_OK && ambulo__sync_folder(parent) != 0) {
     status = ambulo__io_error(diagnostics, path, "flush the folder of");

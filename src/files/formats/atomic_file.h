@@ -4,7 +4,9 @@
  * renamed; a result folder is filled beside its final place and renamed. On any failure
  * (disk full, quota, no permission) the temporary is removed, what stood there before
  * stays, and E_IO is reported with the system's reason. A killed process may leave a
- * temporary "<name>.tmp-<pid>-<k>" but never half a result.
+ * temporary "<name>.tmp-<pid>-<k>", or the earlier result as "<name>.old-<pid>-<k>", but never half
+ * a result. What stays is named by a warning: where it cannot be removed, and of a folder by the
+ * next run that has written it.
  *
  * Exception: a path that names a device, FIFO or socket is written directly. */
 #ifndef AMBULO_FORMATS_ATOMIC_FILE_H
@@ -43,7 +45,7 @@ ambulo_status ambulo__folder_write(ambulo__folder *folder, const char *name, con
  * stays. Frees `folder` in any case. */
 ambulo_status ambulo__folder_commit(ambulo__folder *folder, ambulo_diagnostics *diagnostics);
 /* Removes the temporary folder and frees; accepts NULL. */
-void ambulo__folder_abort(ambulo__folder *folder);
+void ambulo__folder_abort(ambulo__folder *folder, ambulo_diagnostics *diagnostics);
 
 /* First characters of every table that ambulo writes as a single file: how it knows its own. */
 #define AMBULO__OWN_MARK "# ambulo"

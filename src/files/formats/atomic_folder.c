@@ -9,7 +9,9 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -30,19 +32,27 @@ static int is_dot(const char *name) {
 }
 
 /* needs no memory, so that cleaning up cannot fail for want of it; links are removed, not
- * followed */
-static void remove_tree(int parent, const char *name, int depth) {
+ * followed; 0: something stays, and errno says why */
+static int remove_tree(int parent, const char *name, int depth) {
   int file = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   DIR *stream = file >= 0 ? fdopendir(file) : NULL;
   if (file >= 0 && !stream) close(file);
   if (stream) {
     for (struct dirent *entry = readdir(stream); entry; entry = readdir(stream)) {
       if (is_dot(entry->d_name) || unlinkat(file, entry->d_name, 0) == 0) continue;
-      if (depth < REMOVE_DEPTH) remove_tree(file, entry->d_name, depth + 1);
+      if (depth < REMOVE_DEPTH) (void)remove_tree(file, entry->d_name, depth + 1);
     }
     closedir(stream);
   }
-  unlinkat(parent, name, AT_REMOVEDIR);
+  return unlinkat(parent, name, AT_REMOVEDIR) == 0;
+}
+
+/* a folder of ours that stays is named */
+static void remove_or_tell(const char *name, const char *what, ambulo_diagnostics *diagnostics) {
+  ambulo__place place = {.file = name};
+  if (!remove_tree(AT_FDCWD, name, 0))
+    ambulo__warning(diagnostics, place, NULL, "%s stays here: it cannot be removed: %s", what,
+                    strerror(errno));
 }
 
 /* 1 empty, 0 not, -1 with errno */
@@ -130,10 +140,36 @@ static void folder_free(ambulo__folder *folder) {
   ambulo__free(&allocator, folder);
 }
 
-void ambulo__folder_abort(ambulo__folder *folder) {
+void ambulo__folder_abort(ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
   if (!folder) return;
-  if (folder->created) remove_tree(AT_FDCWD, folder->temporary, 0);
+  if (folder->created) remove_or_tell(folder->temporary, "an unfinished folder", diagnostics);
   folder_free(folder);
+}
+
+/* "<name>.tmp-<process>-<k>", "<name>.old-<process>-<k>": *process; 0: another name */
+static int is_leftover(const char *entry, const char *name, long *process) {
+  size_t length = strlen(name);
+  if (strncmp(entry, name, length) != 0) return 0;
+  const char *rest = entry + length;
+  if (strncmp(rest, ".tmp-", 5) != 0 && strncmp(rest, ".old-", 5) != 0) return 0;
+  char *end = NULL;
+  *process = strtol(rest + 5, &end, 10);
+  return end > rest + 5 && *end == '-' && *process > 0;
+}
+
+/* what a run that was killed left beside the place, unless it still runs */
+static void tell_leftovers(const ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
+  const char *slash = strrchr(folder->path, '/'), *name = slash ? slash + 1 : folder->path;
+  DIR *stream = opendir(folder->parent);
+  for (const struct dirent *e; stream && (e = readdir(stream)) != NULL;) {
+    long process = 0;
+    ambulo__place place = {.file = folder->parent};
+    if (!is_leftover(e->d_name, name, &process)) continue;
+    if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM) continue;
+    ambulo__warning(diagnostics, place, "remove it, once no run on another machine writes it",
+                    "a run that was cut off left '%s' here", e->d_name);
+  }
+  if (stream) (void)closedir(stream);
 }
 
 static ambulo_status create_temporary(ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
@@ -162,7 +198,7 @@ ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *
   f->path = ambulo__strdup(&own, path);
   f->mark = mark;
   if (!f->path) {
-    ambulo__folder_abort(f);
+    ambulo__folder_abort(f, diagnostics);
     return ambulo__io_memory_error(diagnostics, path);
   }
   /* "out/" and "out" are one place; the temporary must be a sibling, not a child */
@@ -175,7 +211,7 @@ ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *
         f->parent ? create_temporary(f, diagnostics) : ambulo__io_memory_error(diagnostics, path);
   }
   if (status != AMBULO_OK) {
-    ambulo__folder_abort(f);
+    ambulo__folder_abort(f, diagnostics);
     return status;
   }
   *folder = f;
@@ -222,10 +258,14 @@ static ambulo_status move_into_place(ambulo__folder *folder, ambulo_diagnostics 
   if (status != AMBULO_OK) return status;
   if (rename(folder->temporary, folder->path) != 0) {
     status = ambulo__io_error(diagnostics, folder->path, "create");
-    if (aside) (void)rename(aside, folder->path);
+    if (aside && rename(aside, folder->path) != 0) {
+      ambulo__place place = {.file = aside};
+      ambulo__warning(diagnostics, place, "rename it by hand",
+                      "the earlier result stays here: it cannot be put back: %s", strerror(errno));
+    }
   } else {
     folder->created = 0;
-    if (aside) remove_tree(AT_FDCWD, aside, 0);
+    if (aside) remove_or_tell(aside, "the earlier result", diagnostics);
     if (ambulo__sync_folder(folder->parent) != 0) {
       status = ambulo__io_error(diagnostics, folder->path, "flush the folder of");
     }
@@ -240,6 +280,7 @@ ambulo_status ambulo__folder_commit(ambulo__folder *folder, ambulo_diagnostics *
     status = ambulo__io_error(diagnostics, folder->path, "flush to disk");
   }
   if (status == AMBULO_OK) status = move_into_place(folder, diagnostics);
-  ambulo__folder_abort(folder);
+  if (status == AMBULO_OK) tell_leftovers(folder, diagnostics);
+  ambulo__folder_abort(folder, diagnostics);
   return status;
 }

@@ -88,7 +88,9 @@ export class Study {
           "=": value === bound, "!=": value !== bound }[rule[2]];
       }
     }
-    return this.columns.some((_, c) => String(this.cell(row, c) ?? "").toLowerCase().includes(text));
+    // from the beginning of a word on: "feasible" is not found in "infeasible"
+    const at = new RegExp(`(?<![\\p{L}\\p{N}])${text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}`, "u");
+    return this.columns.some((_, c) => at.test(String(this.cell(row, c) ?? "").toLowerCase()));
   }
 
   rows() {
