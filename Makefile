@@ -21,6 +21,14 @@ else ifeq ($(VARIANT),san)
   # and initialization are then often wrong: they stay warnings here
   MODE := -O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined \
     -fno-sanitize-recover=undefined -Wno-error
+else ifeq ($(VARIANT),fuzz)
+  # clang's alone; programs are linked with libFuzzer (tests/fuzz)
+  OUT := build/fuzz
+  MODE := -O1 -g1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined \
+    -fno-sanitize-recover=undefined -Wno-error
+else ifeq ($(VARIANT),tsan)
+  OUT := build/tsan
+  MODE := -O1 -g1 -fno-omit-frame-pointer -fsanitize=thread -Wno-error
 else ifeq ($(VARIANT),cov)
   OUT := build/cov
   MODE := -O0 -g --coverage
@@ -28,7 +36,7 @@ else ifeq ($(VARIANT),way)
   OUT := build/way
   MODE := -O0 -g -finstrument-functions
 else
-  $(error VARIANT is '$(VARIANT)'; expected release, debug, san, cov or way)
+  $(error VARIANT is '$(VARIANT)'; expected release, debug, san, fuzz, tsan, cov or way)
 endif
 
 # ------------------------------------------------------------------- flags
@@ -124,7 +132,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage \
+  sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
@@ -151,6 +159,8 @@ help:
 	@echo 'make engine       src/engine alone, with NLopt and LAPACK: build/engine/libambulo_engine.a, and its tests'
 	@echo 'make sanitize-engine  tests of src/engine with sanitizers'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
+	@echo 'make check-threads  eight threads on shared objects, under the thread sanitizer'
+	@echo 'make fuzz         every reader of files by libFuzzer (clang), 10 s each: SECONDS=600 TARGETS="model batch"'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
 	@echo 'make lint         format, static analysis, folder order, sizes, symbols, callers, test mirror'
@@ -165,7 +175,7 @@ help:
 	@echo 'make book         the pages of docs/ as one, build/book/ambulo.html (needs pandoc)'
 	@echo 'make cross-objects  compile for aarch64 and for musl, where the compilers are there'
 	@echo 'make clean        remove build/'
-	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS=  V=1'
+	@echo 'variables         VARIANT=release|debug|san|fuzz|cov  CC=  CFLAGS=  LDFLAGS=  JOBS=  V=1'
 
 # ------------------------------------------------------------------- build
 
@@ -189,7 +199,8 @@ compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(1) $(CFLAGS) 
 
 define compile_kernel
 	@mkdir -p $(@D)
-	$(call compile,$(if $(filter release,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))))
+	$(call compile,$(if $(filter release,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))) \
+	  $(if $(filter fuzz tsan,$(VARIANT)),-fno-sanitize=all))
 endef
 $(OUT)/obj/src/engine/mechanics/kernels_%.o: src/engine/mechanics/kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
@@ -314,6 +325,28 @@ truth: build/.ready-build
 	$(submake) all
 	@$(PYTHON_PATH) $(or $(AMBULO_PYTHON),python3) tests/truth/truth.py --ambulo $(OUT)/ambulo --results $(OUT)/truth \
 	  --markdown $(OUT)/truth.md --jobs $(JOBS) $(PROBLEMS)
+
+# threads on shared objects, under the thread sanitizer
+THREAD_TESTS := $(OUT)/tests/api/test_shared $(OUT)/tests/api/test_threads
+check-threads: build/.ready-test
+	$(submake) VARIANT=tsan run-threads
+run-threads: $(THREAD_TESTS)
+	@TEST_WRAPPER='setarch -R' JOBS=$(JOBS) OUT=$(OUT) MODE='$(MODE)' tests/support/all.sh $(THREAD_TESTS)
+
+# Targets of tests/fuzz, a program each, for so many seconds each: make fuzz SECONDS=600 TARGETS="model batch"
+SECONDS ?= 10
+TARGETS ?=
+FUZZ_TARGETS = $(or $(TARGETS),$(notdir $(wildcard tests/fuzz/seeds/*)))
+fuzz: build/.ready-test
+	@command -v clang >/dev/null || { echo 'skipped: make fuzz: no clang'; exit 1; }
+	$(submake) CC=clang VARIANT=fuzz $(patsubst %,build/fuzz/%,$(FUZZ_TARGETS))
+	@JOBS=$(JOBS) tests/fuzz/fuzz.sh build/fuzz $(SECONDS) $(FUZZ_TARGETS)
+ifeq ($(VARIANT),fuzz)
+$(patsubst %,$(OUT)/%,$(FUZZ_TARGETS)): $(OUT)/%: tests/fuzz/fuzz.c $(wildcard tests/fuzz/*.h) $(ARCHIVE)
+	@mkdir -p $(@D)
+	$(call quiet,LD $@)$(CC) $(ALL_CPPFLAGS) -Itests $(ALL_CFLAGS) -fsanitize=fuzzer -DFUZZ_TARGET=$* $< $(ARCHIVE) \
+	  $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+endif
 
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests

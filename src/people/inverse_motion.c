@@ -127,10 +127,11 @@ static ambulo_status differentiate(const ambulo__inverse *v, double *values, dou
   ambulo__motion_fit *fit = NULL;
   ambulo_status status =
       ambulo__motion_fit_create(&table, v->rows > 5 ? 5 : 3, 0.0, &v->allocator, &fit);
-  if (status == AMBULO_E_NUMERIC) {
+  if (status == AMBULO_E_NUMERIC ||
+      status == AMBULO_E_ARGUMENT) { /* of times: no spline has them */
     ambulo__place place = {.file = v->file};
-    (void)ambulo__error(
-        v->doubts.diagnostics, status, place, NULL,
+    return ambulo__error(
+        v->doubts.diagnostics, AMBULO_E_NUMERIC, place, NULL,
         "no spline goes through the values: some are too large or too close in time");
   }
   if (status) return status;
