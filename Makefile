@@ -56,14 +56,12 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # a result does not depend on how an expression happened to be grouped; no errno, which nothing
 # here reads and which keeps sqrt from being one instruction. Never -ffast-math: the code
 # tests for NaN and infinity.
-# Kernels (the innermost recursion over time nodes): contraction is allowed, since a fused
-# multiply-add is half of their speed and at most as far from the exact sum; their results are
-# compared to the reference with a tolerance, and differ in the last bits between instruction
-# sets. No trap is ever enabled, so operations may be moved across branches. With the 32
+# Kernels (the innermost recursion over time nodes, and band matrices): the same, so that every
+# instruction set rounds alike and a solve ends in the same valley on every processor. No trap is ever enabled, so operations may be moved across branches. With the 32
 # registers of AVX-512, gcc's scheduling before registers are given out pays (Jacobians 6 %, with
 # the costs of a processor that has them; gradients 1 to 3 %); with 16 it does not.
 FLOATING := -ffp-contract=off -fno-math-errno
-KERNEL := -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -Wno-psabi $(if $(CLANG),-Wno-pass-failed)
+KERNEL := -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -Wno-psabi $(if $(CLANG),-Wno-pass-failed)
 KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 \
   -mtune=skylake-avx512 $(if $(CLANG),,-fschedule-insns -fsched-pressure)
 KERNEL_avx2 := -mavx2 -mfma

@@ -115,12 +115,14 @@ ALWAYS void strip_products(int tiles, const double *a, size_t step, const int *b
   add_products(tiles, end - from, x + from * step, step, y + from * step, step, sums);
 }
 
-/* X L' = A - sums for COLUMNS columns from h of the corner on */
+/* X L' = A - sums for COLUMNS columns from h of the corner on, those before them being there */
 ALWAYS void solve_strip(int tiles, double *at, size_t step, double l[T][T], const double inverse[T],
                         int h, wide sums[][COLUMNS]) {
   UNROLLED for (int v = 0; v < tiles * V; v++) {
     UNROLLED for (int c = 0; c < COLUMNS; c++) {
       wide x = load(at + (size_t)c * step + v * W) - sums[v][c];
+      const double *before = at - (size_t)h * step + v * W;
+      for (int k = 0; k < h; k++) x -= load(before + (size_t)k * step) * l[k][h + c];
       UNROLLED for (int k = 0; k < c; k++) x -= sums[v][k] * l[h + k][h + c];
       sums[v][c] = x * inverse[h + c];
       store(at + (size_t)c * step + v * W, sums[v][c]);
@@ -133,7 +135,7 @@ ALWAYS void factor_strip(int tiles, double *a, size_t step, const int *below, in
   for (int h = 0; h < T; h += COLUMNS) {
     wide sums[STRIP * V][COLUMNS];
     int column = block * T + h;
-    strip_products(tiles, a, step, below, start, row, column, column, sums);
+    strip_products(tiles, a, step, below, start, row, column, block * T, sums);
     solve_strip(tiles, a + place(row * T, column, step), step, l, inverse, h, sums);
   }
 }
@@ -203,12 +205,18 @@ static void forward(int n, int ld, const double *a, const int *below, const doub
  * zeros. */
 static inline void sums_of_columns(const double *corner, size_t step, int from, int rows,
                                    const double *x, double *sums) {
-  wide sum[T] = {{0}};
-  for (int i = from; i < T + rows; i += W) {
-    wide other = load(x + i);
-    for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
+  for (int h = 0; h < T; h += W) {
+    wide sum[V][W] = {{{0}}}, part[V];
+    for (int i = from; i < T + rows; i += T) {
+      for (int v = 0; v < V; v++) {
+        wide other = load(x + i + v * W);
+        for (int c = 0; c < W; c++)
+          sum[v][c] += load(corner + i + v * W + (size_t)(h + c) * step) * other;
+      }
+    }
+    for (int v = 0; v < V; v++) part[v] = sums_of(sum[v]);
+    *(loose *)(sums + h) = joined(part);
   }
-  for (int c = 0; c < T; c += W) *(loose *)(sums + c) = sums_of(sum + c);
 }
 
 static void upper_multiply(int n, int ld, const double *a, const int *below, double *x) {
@@ -255,25 +263,26 @@ static void backward(int n, int ld, const double *a, const int *below, const dou
   }
 }
 
-/* X_I = L_II^-1 (X_I - sum_K L_IK X_K) for `tiles` tiles of columns, COLUMNS rows at a time: those
- * before them count as one more K, and the inverse of a lower right corner stands in L_II^-1 */
+/* X_I = L_II^-1 (X_I - sum_K L_IK X_K) for `tiles` tiles of columns, the sums for COLUMNS rows at a
+ * time */
 ALWAYS void forward_block(int tiles, int block, int start, size_t step, const double *a,
                           const double *by_rows, size_t width, double *x) {
-  size_t from = (size_t)start * T;
+  size_t from = (size_t)start * T, row = (size_t)block * T;
+  wide left[STRIP * V][T];
+  double *at = x + row * width;
   for (int h = 0; h < T; h += COLUMNS) {
-    size_t row = (size_t)(block * T + h);
     wide sums[STRIP * V][COLUMNS] = {{{0}}};
-    double *at = x + row * width;
-    add_products(tiles, row - from, x + from * width, width, a + from * step + row, step, sums);
+    add_products(tiles, row - from, x + from * width, width, a + from * step + row + h, step, sums);
     UNROLLED for (int v = 0; v < tiles * V; v++) {
-      UNROLLED for (int r = 0; r < COLUMNS; r++) sums[v][r] =
-          load(at + (size_t)r * width + v * W) - sums[v][r];
-      UNROLLED for (int r = 0; r < COLUMNS; r++) {
-        const double *inverse = by_rows + (h + r) * T + h;
-        wide value = sums[v][0] * inverse[0];
-        UNROLLED for (int c = 1; c <= r; c++) value += sums[v][c] * inverse[c];
-        store(at + (size_t)r * width + v * W, value);
-      }
+      UNROLLED for (int r = 0; r < COLUMNS; r++) left[v][h + r] =
+          load(at + (size_t)(h + r) * width + v * W) - sums[v][r];
+    }
+  }
+  UNROLLED for (int v = 0; v < tiles * V; v++) {
+    UNROLLED for (int r = 0; r < T; r++) {
+      wide value = left[v][0] * by_rows[r * T];
+      UNROLLED for (int c = 1; c <= r; c++) value += left[v][c] * by_rows[r * T + c];
+      store(at + (size_t)r * width + v * W, value);
     }
   }
 }

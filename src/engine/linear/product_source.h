@@ -7,6 +7,10 @@
  * With the 32 registers of AVX-512 a strip is two tiles high and 8 columns wide, 16 sums; with 16
  * registers one tile and 4 columns, 8 sums: as many as two units with a latency of four steps have
  * under way. With vectors of two numbers a tile is 4 vectors high, and has 2 columns.
+ *
+ * Every set rounds alike, and a solve is the same on every processor: no product is fused with a
+ * sum (Makefile), each number is summed in the same order whatever the width, and what is summed
+ * along a vector is summed as if it had T lanes: ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)).
  */
 
 enum { T = AMBULO__TILE, W = AMBULO__WIDTH, V = T / W, COLUMNS = W, STRIP = W == 8 ? 2 : 1 };
@@ -77,6 +81,21 @@ static inline wide sums_of(const wide v[W]) {
   return PICK(v[0], v[1], 0, 2) + PICK(v[0], v[1], 1, 3);
 }
 #endif
+
+/* sums of T lanes from the sums of V parts of them: V = 1, 2, 4 */
+static inline wide joined(const wide part[V]) {
+  wide sum = part[0];
+  if (V > 1) sum += part[V > 1 ? 1 : 0];
+  if (V > 2) sum += part[V > 2 ? 2 : 0] + part[V > 2 ? 3 : 0];
+  return sum;
+}
+
+static inline double joined_one(const double part[V]) {
+  double sum = part[0];
+  if (V > 1) sum += part[V > 1 ? 1 : 0];
+  if (V > 2) sum += part[V > 2 ? 2 : 0] + part[V > 2 ? 3 : 0];
+  return sum;
+}
 
 static inline double sum_of(wide v) {
   double part[4] = {0.0}, sum = 0.0;
@@ -315,20 +334,36 @@ static void gather(int n, int width, const double *w, const double *x, double *y
   }
 }
 
-static inline wide row_product(size_t width, const double *row, const double *y) {
-  wide sum = load(row) * load(y);
-  for (size_t v = W; v < width; v += W) sum += load(row + v) * load(y + v);
-  return sum;
+/* W rows times y, `there` of which there are */
+static inline void row_products(size_t width, const double *rows, const double *y, size_t there,
+                                wide sums[V][W]) {
+  for (int v = 0; v < V; v++) {
+    for (size_t r = 0; r < there; r++) sums[v][r] = (wide){0};
+  }
+  for (size_t i = 0; i < width; i += T) {
+    for (int v = 0; v < V; v++) {
+      wide other = load(y + i + (size_t)(v * W));
+      for (size_t r = 0; r < there; r++)
+        sums[v][r] += load(rows + r * width + i + (size_t)(v * W)) * other;
+    }
+  }
 }
 
 static void scatter(int n, int width, const double *w, const double *y, double *x) {
   size_t stride = (size_t)width, k = 0, end = (size_t)n;
+  wide sums[V][W];
   for (; k + W <= end; k += W) {
-    wide row[W];
-    for (size_t r = 0; r < W; r++) row[r] = row_product(stride, w + (k + r) * stride, y);
-    *(loose *)(x + k) -= sums_of(row);
+    wide part[V];
+    row_products(stride, w + k * stride, y, W, sums);
+    for (int v = 0; v < V; v++) part[v] = sums_of(sums[v]);
+    *(loose *)(x + k) -= joined(part);
   }
-  for (; k < end; k++) x[k] -= sum_of(row_product(stride, w + k * stride, y));
+  for (; k < end; k++) {
+    double part[V];
+    row_products(stride, w + k * stride, y, 1, sums);
+    for (int v = 0; v < V; v++) part[v] = sum_of(sums[v][0]);
+    x[k] -= joined_one(part);
+  }
 }
 
 /* ------------------------------------------- spread over control points (band.h) */
