@@ -1,4 +1,5 @@
 /* ambulo_solve as a caller meets it. */
+#include "mechanics/kernels.h"
 #include "support/engine_fixture.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
@@ -118,6 +119,34 @@ static void limits_end_the_solve(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* the processor chooses the kernels, and not the motion: to the last bit */
+static void every_instruction_set_solves_alike(void **state) {
+  (void)state;
+  static const char *const sets[] = {"scalar", "baseline", "avx2", "avx512"};
+  static const char *const names[] = {"walk_without_reaction", "walk_normal"};
+  for (int p = 0; p < 2; p++) {
+    ambulo_result *first = NULL;
+    for (int i = 0; i < 4; i++) {
+      if (!ambulo__kernels_by_name(sets[i])) continue;
+      setenv("AMBULO_ISA", sets[i], 1);
+      ambulo_problem *problem = load_problem(names[p]);
+      ambulo_result *r = solve(problem, ambulo_options_default());
+      if (first) {
+        assert_int_equal(ambulo_result_iterations(r), ambulo_result_iterations(first));
+        assert_int_equal(ambulo_result_verdict(r), ambulo_result_verdict(first));
+        assert_memory_equal(ambulo_result_x(r), ambulo_result_x(first),
+                            (size_t)ambulo_problem_variable_count(problem) * sizeof(double));
+      }
+      ambulo_problem_free(problem);
+      ambulo_result *done = first ? r : NULL;
+      if (!first) first = r;
+      ambulo_result_free(done);
+    }
+    ambulo_result_free(first);
+  }
+  unsetenv("AMBULO_ISA");
+}
+
 static void impossible_problem_is_called_infeasible(void **state) {
   (void)state;
   const char *overrides[] = {"gait.step_length=1.35"};
@@ -225,6 +254,7 @@ int main(void) {
       cmocka_unit_test(feasibility_alone_is_enough),
       cmocka_unit_test(cancelled_solve_returns_its_point),
       cmocka_unit_test(limits_end_the_solve),
+      cmocka_unit_test(every_instruction_set_solves_alike),
       cmocka_unit_test(impossible_problem_is_called_infeasible),
       cmocka_unit_test(start_that_is_not_finite_is_refused),
       cmocka_unit_test(threads_give_the_bits_of_serial_runs),
