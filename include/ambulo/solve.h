@@ -24,7 +24,11 @@ extern "C" {
   X(AMBULO_LIMIT_REACHED, "limit", "stopped by a limit, not feasible")                             \
   X(AMBULO_INTERRUPTED, "interrupted", "stopped by the caller; the best point so far")             \
   X(AMBULO_NOT_CONVERGED, "not_converged",                                                         \
-    "some row is violated, and nothing shows that it has to be")
+    "some row is violated, and nothing shows that it has to be")                                   \
+  X(AMBULO_OPTIMAL_AT_NODES, "optimal_at_nodes",                                                   \
+    "optimal at the nodes only; between them a row is off by more than 10 tolerances")             \
+  X(AMBULO_FEASIBLE_AT_NODES, "feasible_at_nodes",                                                 \
+    "feasible at the nodes only; between them a row is off by more than 10 tolerances")
 
 typedef enum ambulo_verdict {
 #define AMBULO_VERDICT_ENUM(id, name, text) id,
@@ -35,7 +39,8 @@ typedef enum ambulo_verdict {
 AMBULO_API const char *ambulo_verdict_name(ambulo_verdict verdict);
 AMBULO_API const char *ambulo_verdict_text(ambulo_verdict verdict);
 
-/* 1 for the verdicts of a motion that can be used: optimal and feasible. */
+/* 1 for the verdicts of a motion that can be used: optimal and feasible. One that holds at the
+ * nodes only is none. */
 AMBULO_API int ambulo_verdict_is_solution(ambulo_verdict verdict);
 
 /* Why a solve ended: which test was met, or which limit. It says nothing about the point. */

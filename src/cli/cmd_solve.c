@@ -172,7 +172,7 @@ static ambulo_status print_outcome(job *j, int written) {
 static int verdict_exit_code(const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   if (ambulo__cli_stops() > 0) return 128 + ambulo__cli_stop_signal();
-  return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE ? 0 : 1;
+  return ambulo_verdict_is_solution(verdict) ? 0 : 1;
 }
 
 /* the warning that a batch finds in each summary.json: a million logs need not hold it as well */

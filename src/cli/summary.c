@@ -104,11 +104,6 @@ static void print_explanation(const ambulo_result *result) {
   for (int i = 0; i < e->line_count; i++) printf("  %s\n", e->lines[i]);
 }
 
-static int fails_between(const ambulo_result *result) {
-  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
-  return dense && dense->line_count > 0;
-}
-
 void ambulo__cli_print_last(const ambulo_result *result) {
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
   if (dense && dense->summary[0]) printf("%s\n", dense->summary);
@@ -132,11 +127,7 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
   ambulo_verdict verdict = ambulo_result_verdict(result);
   const ambulo_timing *timing = ambulo_result_timing(result);
   printf("problem      %s\n", ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "");
-  if (fails_between(result)) {
-    printf("verdict      %s at the nodes, not between them\n", ambulo_verdict_name(verdict));
-  } else {
-    printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
-  }
+  printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
   print_objective(problem, result);
   print_parameters(result);
   print_audit(result);

@@ -11,6 +11,7 @@
 #define AMBULO_SOURCE_DIR "."
 #endif
 #define MODEL AMBULO_SOURCE_DIR "/models/"
+#define SUPPORT AMBULO_SOURCE_DIR "/tests/support/"
 
 typedef struct world {
   void **state;
@@ -110,7 +111,7 @@ static ambulo_status load_problem(const ambulo_allocator *a, ambulo_diagnostics 
   static const char *const overrides[] = {"time.intervals=8", "model.links[pelvis].body.mass=3"};
   ambulo_problem *problem = NULL;
   ambulo_status status =
-      ambulo_problem_load(MODEL "walker_2d_step.yaml", overrides, 1, a, list, &problem);
+      ambulo_problem_load(SUPPORT "walker_2d_step.yaml", overrides, 1, a, list, &problem);
   ambulo_problem_free(problem);
   return status;
 }

@@ -210,8 +210,8 @@ static void what_is_no_gait_has_none(void **state) {
   static const char *const free_ends[] = {"ends={kind: free}", "gait.steps=2",
                                           "time.duration=1.08"};
   ambulo_problem *p = NULL;
-  assert_int_equal(ambulo_problem_load("models/two_link_reach.yaml", NULL, 0, NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/two_link_reach.yaml", NULL, 0, NULL, NULL, &p), AMBULO_OK);
   assert_false(ambulo__task_of(&p->definition).is_gait);
   ambulo_problem_free(p);
   p = walk(free_ends, 3);
@@ -286,8 +286,8 @@ static void what_is_no_walk_is_told(void **state) {
 static void legs_are_measured_along_their_links(void **state) {
   (void)state;
   ambulo_problem *p = NULL;
-  assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", NULL, 0, NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/walker_2d_step.yaml", NULL, 0, NULL, NULL, &p), AMBULO_OK);
   double leg = ambulo__task_of(&p->definition).leg;
   assert_true(leg > 0.85 && leg < 1.05);
   ambulo_model *model = p->owned_model;

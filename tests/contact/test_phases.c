@@ -88,7 +88,7 @@ static void tips_that_need_not_clear_make_no_event(void **state) {
 
 static void a_problem_without_contacts_has_none(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_problem *p = load_problem("support/two_link_reach");
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &a, &events),

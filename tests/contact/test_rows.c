@@ -107,17 +107,17 @@ static void every_row_is_of_a_kind(void **state) {
       {"walk_asymmetric", {NULL}},
       {"run", {NULL}},
       {"reach_standing", {NULL}},
-      {"walk_without_reaction", {NULL}},
+      {"support/walk_without_reaction", {NULL}},
       {"yardstick_12", {NULL}},
       {"acrobot_swing", {NULL}},
       {"yardstick_36", {NULL}},
       {"yardstick_72", {NULL}},
       {"fig5a_feasible", {NULL}},
       {"fig5b_torque", {NULL}},
-      {"walker_2d_step", {NULL}},
+      {"support/walker_2d_step", {NULL}},
       {"pendulum_swing", {NULL}},
-      {"two_link_reach", {NULL}},
-      {"two_link_reach",
+      {"support/two_link_reach", {NULL}},
+      {"support/two_link_reach",
        {"constraints.speed_limits=true", "model.links[lower].coordinate.speed=[-900, 900]"}}};
   int seen[FAMILIES] = {0};
   for (size_t k = 0; k < sizeof problems / sizeof *problems; k++) {
@@ -130,7 +130,7 @@ static void every_row_is_of_a_kind(void **state) {
     }
     ambulo_problem_free(p);
   }
-  ambulo_problem *base = load_problem("two_link_reach"), *tube = with_tube(base);
+  ambulo_problem *base = load_problem("support/two_link_reach"), *tube = with_tube(base);
   for (int r = 0; r < tube->rows; r++) {
     check_row(tube, &tube->table.rows[r]);
     seen[number_of(tube->table.rows[r].family)]++;
@@ -185,7 +185,7 @@ static double nothing(void *user, const ambulo_node_state *state, ambulo_node_gr
 /* kept apart from the engine's rows, even under a name of theirs; one family a name */
 static void rows_of_the_caller(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach"), *with = NULL;
+  ambulo_problem *p = load_problem("support/two_link_reach"), *with = NULL;
   ambulo_user_row own[] = {{"torque_limit", "N", AMBULO_NOT_NEGATIVE, 0.0, 9.0, nothing, NULL},
                            {"apples", "apples", AMBULO_EQUAL, 0.0, 9.0, nothing, NULL},
                            {"torque_limit", "m/s", AMBULO_EQUAL, 0.0, 9.0, nothing, NULL}};

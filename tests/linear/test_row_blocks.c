@@ -53,7 +53,7 @@ static void products_are_those_of_the_gradients(void **state) {
   check_products("yardstick_12", "trajectory={basis: hermite}", 1);
   check_products("yardstick_12", "constraints.joint_limits=control_points", 1); /* on no node */
   check_products("support/walk_rigid", "constraints.torque_limits=true", 1);
-  check_products("walk_without_reaction", NULL, 1);
+  check_products("support/walk_without_reaction", NULL, 1);
   check_products("walk", "constraints.torque_limits=true", 1);
   check_products("walk_whole_body_37", NULL, 1); /* collisions */
   check_products("step_over", NULL, 1);

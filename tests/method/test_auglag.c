@@ -3,6 +3,7 @@
 #define _GNU_SOURCE /* dlsym's RTLD_NEXT */
 #include "base/arithmetic.h"
 #include "method/pipeline.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "support/arm.h"
 
@@ -51,9 +52,10 @@ nlopt_result nlopt_add_inequality_mconstraint(nlopt_opt opt, unsigned m, nlopt_m
                        tolerance);
 }
 
-static const char *const walks[] = {"yardstick_12",  "yardstick_36",         "support/walk_rigid",
-                                    "walk_tracking", "walk_uphill",          "walker_2d_step",
-                                    "fig5b_torque",  "walk_without_reaction"};
+static const char *const walks[] = {"yardstick_12",       "yardstick_36",
+                                    "support/walk_rigid", "walk_tracking",
+                                    "walk_uphill",        "support/walker_2d_step",
+                                    "fig5b_torque",       "support/walk_without_reaction"};
 /* their known optima */
 static const double optima[] = {0.356402, 1.020010, 0.0571308, 0.0712279,
                                 0.114091, 0.953141, 0.135367,  1.13688};
@@ -68,9 +70,9 @@ static void without_nlopts_update_nothing_is_solved(void **state) {
     ambulo_result *result = NULL;
     options.maximum_iterations = 60; /* far more than NLopt needs */
     assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-    if (ambulo_result_verdict(result) == AMBULO_OPTIMAL)
+    if (verdict_at_nodes(result) == AMBULO_OPTIMAL)
       print_error("%s: %s\n", walks[i], ambulo_result_ending(result));
-    assert_int_not_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    assert_int_not_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
     ambulo_result_free(result);
     ambulo_problem_free(problem);
   }
@@ -83,8 +85,9 @@ static void another_nlopt_is_given_own_gradients(void **state) {
   static const struct {
     const char *name;
     double optimum;
-  } cases[] = {
-      {"walker_2d_step", 0.953141}, {"yardstick_12", 0.356402}, {"two_link_reach", 5.29143}};
+  } cases[] = {{"support/walker_2d_step", 0.953141},
+               {"yardstick_12", 0.356402},
+               {"support/two_link_reach", 5.29143}};
   for (int k = 0; k < 2; k++) {
     other = k;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -96,7 +99,7 @@ static void another_nlopt_is_given_own_gradients(void **state) {
       for (size_t d = 0; d < ambulo_diagnostics_count(list); d++)
         said += strstr(ambulo_diagnostics_get(list, d)->message, "its own gradient") != NULL;
       assert_int_equal(said, k);
-      assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+      assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
       assert_close(ambulo_result_objective(result) / cases[i].optimum, 1.0, 1e-4);
       ambulo_result_free(result);
       ambulo_diagnostics_free(list);
@@ -115,7 +118,7 @@ static void nlopt_iterates(void **state) {
     ambulo_result *result = NULL;
     assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
     const ambulo_nlopt_work *work = ambulo_result_nlopt(result);
-    assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
     if (work->outer < 5) print_error("%s: %d outer iterations\n", walks[i], work->outer);
     assert_true(work->outer >= 5 && work->inner >= work->outer && work->calls >= 1);
     assert_int_equal(work->outer, ambulo_result_iterations(result));
@@ -178,7 +181,8 @@ static int compare(FILE *theirs, FILE *ours) {
 
 static void multipliers_are_nlopts(void **state) {
   (void)state;
-  static const char *const names[] = {"yardstick_12", "walker_2d_step", "support/walk_rigid"};
+  static const char *const names[] = {"yardstick_12", "support/walker_2d_step",
+                                      "support/walk_rigid"};
   int *verbose = dlsym(RTLD_DEFAULT, "auglag_verbose");
   if (!verbose) skip(); /* an NLopt that keeps it to itself */
   for (int i = 0; i < 3; i++) {
@@ -213,7 +217,7 @@ static void nlopt_starts_where_the_engine_is(void **state) {
   for (int run = 0; run < 3; run++) {
     engine_fixture f;
     ambulo_ending ending;
-    engine_open_restored(&f, run == 2 ? "two_link_reach" : "yardstick_12");
+    engine_open_restored(&f, run == 2 ? "support/two_link_reach" : "yardstick_12");
     ambulo__engine *e = f.engine;
     ambulo__stopping stopping = ambulo__stopping_begin(0);
     assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
@@ -281,7 +285,7 @@ static void no_rows_need_no_penalty(void **state) {
 /* NLopt's first point beside the start is the model step, whether rows are violated or not */
 static void the_first_trial_is_the_model_step(void **state) {
   (void)state;
-  static const char *const names[] = {"two_link_reach", "yardstick_12"};
+  static const char *const names[] = {"support/two_link_reach", "yardstick_12"};
   for (int i = 0; i < 2; i++) {
     engine_fixture f;
     ambulo_ending ending;

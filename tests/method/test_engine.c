@@ -12,7 +12,7 @@ static void scatter(double *x, int n, double size) {
 static void steps_are_capped_by_what_moves(void **state) {
   (void)state;
   engine_fixture f;
-  engine_open(&f, "walker_2d_step");
+  engine_open(&f, "support/walker_2d_step");
   ambulo_coordinate *c = (ambulo_coordinate *)f.problem->model->coordinates;
   int tx = ambulo_model_find_coordinate(f.problem->model, "pelvis_tx");
   c[tx].range[0] = -1.0;

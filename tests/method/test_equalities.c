@@ -21,12 +21,12 @@ static void yardstick_walks(void **state) {
 
 static void mirrored_step_closes(void **state) {
   (void)state;
-  equalities_hold_after("walker_2d_step");
+  equalities_hold_after("support/walker_2d_step");
 }
 
 static void end_states_are_met(void **state) {
   (void)state;
-  equalities_hold_after("two_link_reach");
+  equalities_hold_after("support/two_link_reach");
 }
 
 static void a_run_that_is_over_does_not_move(void **state) {

@@ -117,7 +117,7 @@ static void curvature_of_a_walk_too(void **state) {
   (void)state;
   compare_shipped("support/walk_rigid");
   compare_shipped("walk_normal"); /* rates of forces between nodes that stand close, or on knots */
-  compare_shipped("walker_2d_step");
+  compare_shipped("support/walker_2d_step");
 }
 
 /* ---------------------------------------------------------------------- scale */

@@ -1,5 +1,6 @@
 /* The model step: feasible to first order, downhill, and stationary for its active set. */
 #include "base/arithmetic.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 
 static void step_keeps_the_equalities_and_descends(void **state) {
@@ -216,7 +217,7 @@ static void generated_models_are_minimized(void **state) {
   static const double curvatures[] = {0.0, 100.0};
   for (int c = 0; c < 2; c++) {
     generated m;
-    open_generated(&m, "two_link_reach", curvatures[c]);
+    open_generated(&m, "support/two_link_reach", curvatures[c]);
     for (int k = 0; k < 120; k++) {
       double gained, rough = solve_generated(&m, k, 1, &gained);
       assert_close(gained / rough, 1.0, 1e-8);
@@ -260,7 +261,7 @@ static void searches_stay_in_their_bracket(void **state) {
   ambulo_options options = ambulo_problem_options(problem);
   options.algorithm = AMBULO_SLSQP; /* which comes to 1e-15 */
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   assert_true(ambulo_result_audit(result)->kkt < 1e-8);
   ambulo_result_free(result);
   ambulo_problem_free(problem);

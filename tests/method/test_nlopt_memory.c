@@ -131,14 +131,14 @@ static void starve(const char *name, ambulo_algorithm algorithm, int intervals) 
 
 static void the_pipeline_runs_out_of_memory(void **state) {
   (void)state;
-  starve("walker_2d_step", AMBULO_AUTO, 12);
+  starve("support/walker_2d_step", AMBULO_AUTO, 12);
 }
 
 static void small_problems_run_out_of_memory(void **state) {
   (void)state;
-  starve("two_link_reach", AMBULO_AUTO, 20);
-  starve("two_link_reach", AMBULO_SLSQP, 20);
-  starve("two_link_reach", AMBULO_AUGLAG, 20);
+  starve("support/two_link_reach", AMBULO_AUTO, 20);
+  starve("support/two_link_reach", AMBULO_SLSQP, 20);
+  starve("support/two_link_reach", AMBULO_AUGLAG, 20);
 }
 
 /* whatever passes the question can be copied, and what is asked for is little more */

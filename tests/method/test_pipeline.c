@@ -3,6 +3,7 @@
 #include "ambulo/tools/load.h"
 #include "support/arm.h"
 #include "support/engine_fixture.h"
+#include "support/at_nodes.h"
 
 static double solve(double *violation, int *evaluations) {
   engine_fixture f;
@@ -76,11 +77,11 @@ static void tight_tolerances_are_met(void **state) {
         load_problem_with(i < 3 ? "yardstick_12" : "support/walk_rigid", tolerances[i]);
     ambulo_result *result = NULL;
     assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-    if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+    if (verdict_at_nodes(result) != AMBULO_OPTIMAL)
       print_error("%s: %s, off by %g\n", tolerances[i],
-                  ambulo_verdict_name(ambulo_result_verdict(result)),
+                  ambulo_verdict_name(verdict_at_nodes(result)),
                   ambulo_result_audit(result)->violation.worst);
-    assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
     assert_int_equal(ambulo_result_ending_code(result), AMBULO_ENDING_CONVERGED);
     ambulo_result_free(result);
     ambulo_problem_free(problem);
@@ -103,7 +104,7 @@ static void vanishing_objective_ends_the_solve(void **state) {
   assert_close(ambulo_result_audit(result)->violation.worst, 0.0, 1e-6);
   assert_close(ambulo_result_objective(result), 0.0, 1e-4);
   assert_int_equal(ambulo_result_audit(result)->at_lower_bound, 1);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
 }
@@ -223,7 +224,7 @@ static void heavy_loads_are_solved(void **state) {
       ambulo_problem_load("models/walk_loaded.yaml", overrides, 2, NULL, NULL, &problem),
       AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
 }

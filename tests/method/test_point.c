@@ -26,7 +26,8 @@ static double worst_of(const engine_fixture *f, const ambulo__sparse_rows *rows,
 /* lengths, rates and torques, each beside its own size */
 static void errors_are_relative_to_sizes(void **state) {
   (void)state;
-  static const char *const names[] = {"two_link_reach", "walker_2d_step", "support/walk_rigid"};
+  static const char *const names[] = {"support/two_link_reach", "support/walker_2d_step",
+                                      "support/walk_rigid"};
   for (int i = 0; i < 3; i++) {
     for (int k = 0; k < 4; k++) {
       engine_fixture f;
@@ -50,7 +51,7 @@ static void errors_are_relative_to_sizes(void **state) {
 static void ends_count_among_the_equalities(void **state) {
   (void)state;
   engine_fixture f;
-  engine_open(&f, "walker_2d_step");
+  engine_open(&f, "support/walker_2d_step");
   assert_true(f.engine->setup->borders > 0);
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   memset(f.engine->workspace->row_value, 0,
@@ -64,7 +65,7 @@ static void ends_count_among_the_equalities(void **state) {
 static void nan_is_no_zero(void **state) {
   (void)state;
   engine_fixture f;
-  engine_open(&f, "two_link_reach");
+  engine_open(&f, "support/two_link_reach");
   ambulo__engine *e = f.engine;
   assert_int_equal(ambulo__evaluate_jacobian(e->workspace, f.x), AMBULO_OK);
   double *weights = calloc((size_t)e->setup->inequalities, sizeof *weights);

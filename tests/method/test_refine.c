@@ -202,7 +202,7 @@ static void rows_on_control_points_keep_their_multipliers(void **state) {
   engine_fixture coarse, fine;
   ambulo__saved_multipliers saved = {0};
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  engine_open_with(&coarse, "two_link_reach", "constraints.joint_limits=control_points");
+  engine_open_with(&coarse, "support/two_link_reach", "constraints.joint_limits=control_points");
   fine.options = ambulo_options_default();
   ambulo__run_begin(&fine.run, &fine.options);
   assert_int_equal(ambulo__problem_with_grid(coarse.problem, 40, 10, NULL, &fine.problem),

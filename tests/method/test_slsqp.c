@@ -2,6 +2,7 @@
 #include "method/slsqp.h"
 #include "support/arm.h"
 #include "support/engine_fixture.h"
+#include "support/at_nodes.h"
 
 static double solve(const char *name, ambulo_algorithm algorithm) {
   ambulo_problem *problem = load_problem(name);
@@ -9,7 +10,7 @@ static double solve(const char *name, ambulo_algorithm algorithm) {
   ambulo_result *result = NULL;
   options.algorithm = algorithm;
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-  ambulo_verdict verdict = ambulo_result_verdict(result);
+  ambulo_verdict verdict = verdict_at_nodes(result);
   if (verdict != AMBULO_OPTIMAL)
     print_error("%s: %s, %s\n", name, ambulo_verdict_name(verdict), ambulo_result_ending(result));
   assert_int_equal(verdict, AMBULO_OPTIMAL);
@@ -21,7 +22,8 @@ static double solve(const char *name, ambulo_algorithm algorithm) {
 
 static void both_find_small_motions(void **state) {
   (void)state;
-  static const char *const names[] = {"pendulum_swing", "two_link_reach", "walker_2d_step"};
+  static const char *const names[] = {"pendulum_swing", "support/two_link_reach",
+                                      "support/walker_2d_step"};
   for (int i = 0; i < 3; i++)
     assert_close(solve(names[i], AMBULO_SLSQP) / solve(names[i], AMBULO_AUGLAG), 1.0, 1e-6);
 }
@@ -68,10 +70,10 @@ static void analytic_problem(ambulo_algorithm algorithm) {
   options.algorithm = algorithm;
   assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &problem), AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-  if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+  if (verdict_at_nodes(result) != AMBULO_OPTIMAL)
     print_error("algorithm %d: %s kkt %g\n", (int)algorithm, ambulo_result_ending(result),
                 ambulo_result_audit(result)->kkt);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   assert_close(ambulo_result_objective(result), 0.5, 1e-5);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
@@ -89,7 +91,7 @@ static void what_nlopt_cannot_do_is_not_asked(void **state) {
   (void)state;
   engine_fixture f;
   const char *message = "";
-  engine_open(&f, "two_link_reach");
+  engine_open(&f, "support/two_link_reach");
   ambulo__setup setup = *f.engine->setup;
   f.engine->setup = &setup;
   setup.equalities = setup.n;
@@ -109,7 +111,7 @@ static void rounds_are_limited(void **state) {
   for (int most = 0; most < 2; most++) {
     engine_fixture f;
     const char *message = "";
-    engine_open(&f, "two_link_reach");
+    engine_open(&f, "support/two_link_reach");
     f.options.maximum_iterations = most;
     assert_int_equal(ambulo__solve_slsqp(f.engine, NULL, f.x, &message), AMBULO_OK);
     assert_int_equal(f.run.ending, AMBULO_ENDING_ITERATIONS);

@@ -1,6 +1,7 @@
 /* Starts of the caller: valid ones are not made worse, rough ones are smoothed, and where one leads
  * nowhere the solver tries its own. */
 #include "method/pipeline.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 
@@ -20,7 +21,7 @@ static void open_started(started *s, const char *name) {
   s->optimum = calloc((size_t)s->n, sizeof *s->x);
   s->x = calloc((size_t)s->n, sizeof *s->x);
   assert_int_equal(ambulo_solve(s->problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   s->objective = ambulo_result_objective(result);
   memcpy(s->optimum, ambulo_result_x(result), (size_t)s->n * sizeof *s->x);
   memcpy(s->x, s->optimum, (size_t)s->n * sizeof *s->x);
@@ -45,7 +46,7 @@ static ambulo_result *solve_from(const started *s, const ambulo_options *options
 
 static void expect_optimal(const started *s, double most, const char *what) {
   ambulo_result *result = solve_from(s, NULL);
-  ambulo_verdict verdict = ambulo_result_verdict(result);
+  ambulo_verdict verdict = verdict_at_nodes(result);
   double objective = ambulo_result_objective(result);
   if (verdict != AMBULO_OPTIMAL || !(objective <= most))
     print_error("%s: %s, %.8g of %.8g, %s\n", what, ambulo_verdict_name(verdict), objective,
@@ -125,7 +126,7 @@ static void valid_starts_are_not_made_worse(void **state) {
       }
     }
     assert_int_equal(ambulo_solve(rows, NULL, s.x, NULL, NULL, &valid), AMBULO_OK);
-    assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(valid)));
+    assert_true(ambulo_verdict_is_solution(verdict_at_nodes(valid)));
     memcpy(s.x, ambulo_result_x(valid), (size_t)s.n * sizeof *s.x);
     assert_int_equal(ambulo_audit_point(s.problem, NULL, s.x, NULL, NULL, &audited), AMBULO_OK);
     double before = ambulo_result_objective(audited);
@@ -141,7 +142,7 @@ static void valid_starts_are_not_made_worse(void **state) {
 /* also when there is no time to find anything better, and by every method */
 static void the_start_is_returned_at_least(void **state) {
   (void)state;
-  static const char *const names[] = {"two_link_reach", "walker_2d_step"};
+  static const char *const names[] = {"support/two_link_reach", "support/walker_2d_step"};
   for (size_t i = 0; i < 2; i++) {
     started s;
     open_started(&s, names[i]);
@@ -151,7 +152,7 @@ static void the_start_is_returned_at_least(void **state) {
         options.algorithm = slsqp ? AMBULO_SLSQP : AMBULO_AUGLAG;
         options.maximum_evaluations = evaluations;
         ambulo_result *result = solve_from(&s, &options);
-        assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+        assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
         assert_true(ambulo_result_objective(result) <= s.objective * (1.0 + 2e-6));
         ambulo_result_free(result);
       }
@@ -166,12 +167,12 @@ static void what_is_worse_than_the_start_is_said(void **state) {
   (void)state;
   started s;
   int said = 0;
-  open_started(&s, "walker_2d_step");
+  open_started(&s, "support/walker_2d_step");
   for (int evaluations = 3; evaluations < 40; evaluations += 3) {
     ambulo_options options = ambulo_problem_options(s.problem);
     options.maximum_evaluations = evaluations;
     ambulo_result *result = solve_from(&s, &options);
-    assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+    assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
     assert_true(ambulo_result_objective(result) <= s.objective * (1.0 + 2e-6));
     said += strstr(ambulo_result_ending(result), "worse than the given start") != NULL;
     ambulo_result_free(result);
@@ -188,10 +189,10 @@ static void the_solver_tries_its_own_start(void **state) {
   unsigned seed = 5;
   for (int j = 0; j < s.n; j++) s.x[j] = 40.0 * random_number(&seed); /* limbs turning wildly */
   ambulo_result *result = solve_from(&s, NULL);
-  if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
-    print_error("%s: %s\n", ambulo_verdict_name(ambulo_result_verdict(result)),
+  if (verdict_at_nodes(result) != AMBULO_OPTIMAL)
+    print_error("%s: %s\n", ambulo_verdict_name(verdict_at_nodes(result)),
                 ambulo_result_ending(result));
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   assert_close(ambulo_result_objective(result) / s.objective, 1.0, 2e-3);
   assert_non_null(strstr(ambulo_result_ending(result), "from zero"));
   ambulo_result_free(result);
@@ -202,7 +203,7 @@ static void the_solver_tries_its_own_start(void **state) {
 static void optima_stay(void **state) {
   (void)state;
   static const char *const names[] = {"support/walk_rigid", "support/walk_rigid", "yardstick_36",
-                                      "walker_2d_step"};
+                                      "support/walker_2d_step"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
     started s;
     engine_fixture f;
@@ -248,7 +249,7 @@ static void the_filter_has_its_cut_off(void **state) {
 static void rates_have_their_own_size(void **state) {
   (void)state;
   engine_fixture f;
-  engine_open_with(&f, "two_link_reach", "trajectory={basis: hermite}");
+  engine_open_with(&f, "support/two_link_reach", "trajectory={basis: hermite}");
   double *smooth = calloc((size_t)f.n, sizeof *smooth), *back = calloc((size_t)f.n, sizeof *back);
   double *weight = calloc((size_t)f.n, sizeof *weight);
   ambulo__band *base = &f.engine->linearized.base;
@@ -281,7 +282,7 @@ static void rates_have_their_own_size(void **state) {
 static void memory_that_is_out_is_told(void **state) {
   (void)state;
   started s;
-  open_started(&s, "two_link_reach");
+  open_started(&s, "support/two_link_reach");
   for (long k = 0; k < 100; k++) {
     engine_fixture f = {.options = ambulo_options_default()};
     fail_alloc memory = fail_alloc_at(-1);

@@ -120,7 +120,7 @@ static void sway_is_from_side_to_side(void **state) {
 /* torques of a pelvis that no ground carries are nobody's work */
 static void what_is_not_actuated_does_no_work(void **state) {
   (void)state;
-  solved s = solve("models/walk_without_reaction.yaml", 101);
+  solved s = solve("tests/support/walk_without_reaction.yaml", 101);
   const ambulo_model *m = s.problem->model;
   for (int i = 0; i < m->coordinate_count; i++)
     if (!m->coordinates[i].actuated)
@@ -256,8 +256,9 @@ static void nothing_without_ground_reaction(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
   double untouched = 7.0;
-  assert_int_equal(
-      ambulo_problem_load("models/walk_without_reaction.yaml", NULL, 0, NULL, NULL, &problem), 0);
+  assert_int_equal(ambulo_problem_load("tests/support/walk_without_reaction.yaml", NULL, 0, NULL,
+                                       NULL, &problem),
+                   0);
   double *x = calloc((size_t)problem->variables, sizeof *x);
   assert_int_equal(ambulo__impulses(problem, x, NULL, &untouched), AMBULO_OK);
   assert_close(untouched, 7.0, 0.0);

@@ -107,7 +107,7 @@ static void gradients_agree_with_differences(void **state) {
 static void other_problems_have_no_forces_on_feet(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "models/walk_without_reaction.yaml");
+  fixture_open(&f, "tests/support/walk_without_reaction.yaml");
   double grf[6], cop[6], twist[2], moment[6], time = 0.1;
   ambulo_motion motion = {.size = sizeof(ambulo_motion),
                           .grf = grf,

@@ -140,7 +140,7 @@ static void check_problem(const char *name, int grounded) {
 static void outputs_in_the_air(void **state) {
   (void)state;
   check_problem("yardstick_12", 0);
-  check_problem("two_link_reach", 0);
+  check_problem("support/two_link_reach", 0);
 }
 
 static void outputs_on_the_ground(void **state) {

@@ -2,6 +2,7 @@
  * and all that the file gave stays, free parameters too. */
 #include "ambulo/tools/load.h"
 #include "problem/nlp.h"
+#include "support/at_nodes.h"
 #include "support/fail_alloc.h"
 #include "support/outer_fixture.h"
 #include "support/problem_fixture.h"
@@ -45,7 +46,7 @@ static ambulo_problem *extend(const ambulo_problem *base, const ambulo_user_row 
 static ambulo_result *solution(const ambulo_problem *problem) {
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   return result;
 }
 

@@ -186,7 +186,7 @@ static void forces(void **state) {
 static void without_ground_reaction(void **state) {
   (void)state;
   scene s;
-  scene_open(&s, "models/walk_without_reaction.yaml", NULL);
+  scene_open(&s, "tests/support/walk_without_reaction.yaml", NULL);
   int knee = coordinate(&s, "knee_angle_l");
   assert_non_null(ambulo__people_coordinate(&s.gait, "q", knee).curve);
   assert_null(ambulo__people_coordinate(&s.gait, "tau", knee).curve);
@@ -230,7 +230,7 @@ static void drawn_behind_walks(void **state) {
     const char *file;
     int bands, lines; /* with those of the legend */
   } cases[] = {{"models/walk_normal.yaml", 2 * 3 + 2, 2 * 5 + 2},
-               {"models/walk_without_reaction.yaml", 2 * 3 + 2, 0},
+               {"tests/support/walk_without_reaction.yaml", 2 * 3 + 2, 0},
                {"models/walk_uphill.yaml", 0, 0},
                {"models/stairs_up.yaml", 0, 0},
                {"models/walk_turn.yaml", 0, 0},

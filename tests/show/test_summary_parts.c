@@ -132,7 +132,7 @@ static void a_walk_says_what_it_costs(void **state) {
 static void what_there_is_not_is_not_said(void **state) {
   (void)state;
   ambulo__text_buffer text;
-  write("models/walk_without_reaction.yaml", &text);
+  write("tests/support/walk_without_reaction.yaml", &text);
   assert_null(strstr(ambulo__text_data(&text), "\"work\""));
   assert_non_null(strstr(ambulo__text_data(&text), "\"center_of_mass\": {"));
   ambulo__text_free(&text);

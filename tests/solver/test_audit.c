@@ -1,6 +1,7 @@
 /* The audit tells a good point from a spoilt one, whoever made it. */
 #include "solver/result.h"
 #include "ambulo/tools/load.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 
@@ -20,15 +21,15 @@ static ambulo_result *solve(const ambulo_problem *problem) {
 
 static void spoilt_coordinate_is_found_by_name(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_problem *problem = load_problem("support/two_link_reach");
   ambulo_result *solved = solve(problem);
-  assert_int_equal(ambulo_result_verdict(solved), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(solved), AMBULO_OPTIMAL);
   size_t n = (size_t)ambulo_problem_variable_count(problem);
   double *x = calloc(n, sizeof *x);
   memcpy(x, ambulo_result_x(solved), n * sizeof *x);
   x[0] += 1e-3;
   ambulo_result *spoilt = audit(problem, x);
-  assert_int_equal(ambulo_result_verdict(spoilt), AMBULO_INFEASIBLE);
+  assert_int_equal(verdict_at_nodes(spoilt), AMBULO_INFEASIBLE);
   assert_string_equal(ambulo_result_audit(spoilt)->violation.family, "initial_state");
   assert_string_equal(ambulo_result_audit(spoilt)->violation.subject, "shoulder");
   assert_true(ambulo_result_audit(spoilt)->violation.worst >= 1e-3 - 1e-9);
@@ -45,7 +46,7 @@ static void restored_point_is_not_called_optimal(void **state) {
   engine_open_restored(&f, "pendulum_swing");
   ambulo_result *result = audit(f.problem, f.x);
   assert_true(ambulo_result_audit(result)->violation.worst <= 1e-6);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_FEASIBLE);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_FEASIBLE);
   assert_true(ambulo_result_audit(result)->kkt > 1e-3);
   ambulo_result_free(result);
   engine_close(&f);
@@ -213,7 +214,7 @@ static void rank_leaves_out_what_depends(void **state) {
 static void active_rows_are_near_their_limit(void **state) {
   (void)state;
   static const double gaps[4] = {5e-6, 2e-5, 2e-5, 2e-4}, stationary[4] = {1e-3, 1e-3, 1e-9, 1e-3};
-  ambulo_problem *p = load_problem("two_link_reach"), *free_ends = NULL;
+  ambulo_problem *p = load_problem("support/two_link_reach"), *free_ends = NULL;
   ambulo_problem_definition d = p->definition;
   d.end_value_count = 0;
   assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &free_ends), AMBULO_OK);
@@ -250,7 +251,7 @@ static void active_rows_are_near_their_limit(void **state) {
 /* no value that is not finite is a small violation */
 static void infinite_rows_are_violated(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_problem *p = load_problem("support/two_link_reach");
   for (int r = 0; r < p->rows; r += 7) {
     assert_true(isinf(ambulo__row_violation(p, r, NAN)));
     assert_true(isinf(ambulo__row_violation(p, r, INFINITY)));
@@ -261,7 +262,7 @@ static void infinite_rows_are_violated(void **state) {
 /* where every row holds exactly the worst one still has a name */
 static void the_worst_row_has_a_name(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach"), *free_ends = NULL;
+  ambulo_problem *p = load_problem("support/two_link_reach"), *free_ends = NULL;
   ambulo_problem_definition d = p->definition;
   d.end_value_count = 0;
   assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &free_ends), AMBULO_OK);

@@ -50,7 +50,7 @@ static void a_squat(void **state) {
 static void a_planar_step(void **state) {
   (void)state;
   static const setting c = {
-      "models/walker_2d_step.yaml",
+      "tests/support/walker_2d_step.yaml",
       {"constraints.zmp=off", "angles=degrees", SHARED, "objective[0].weight=2"},
       {"gait.step_length", "ground_reaction.moment_arm", "ground_reaction.slant",
        "ground_reaction.pressure.toe[0]", "ground_reaction.loading_rate", "ground.slope",

@@ -29,7 +29,7 @@ static void a_walk_is_optimal_at_the_nodes_only(void **state) {
   ambulo_result *r = solve(p, diagnostics);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
   const ambulo_dense_family *first = &dense->families[0];
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL_AT_NODES);
   assert_int_equal(dense->samples, 10);
   assert_string_equal(first->violation.family, "slip");
   assert_non_null(strstr(first->violation.subject, "_r"));
@@ -54,7 +54,7 @@ static void a_walk_is_optimal_at_the_nodes_only(void **state) {
   char setting[60];
   (void)snprintf(setting, sizeof setting, "--set time.intervals=%d", dense->intervals);
   assert_string_equal(first->settings, setting);
-  assert_non_null(strstr(dense->summary, "optimal at the nodes, not between them; slip, "));
+  assert_non_null(strstr(dense->summary, "optimal at the nodes only; slip, "));
   assert_non_null(strstr(dense->summary, setting));
   assert_int_equal(warnings(diagnostics, dense->summary), 1);
   assert_int_equal(ambulo_diagnostics_count(diagnostics), 1);
@@ -78,6 +78,36 @@ static void a_motion_that_holds_says_nothing(void **state) {
   ambulo_result_free(r);
   ambulo_diagnostics_free(diagnostics);
   ambulo_problem_free(p);
+}
+
+/* Thousands of a tolerance between its nodes, with an objective of zero: that nothing costs less
+ * does not make it a motion. */
+static void a_lower_bound_excuses_nothing_between_the_nodes(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem_with("yardstick_12", "trajectory.intervals=24");
+  ambulo_result *r = solve(p, NULL);
+  const ambulo_dense_family *worst = &ambulo_result_dense_audit(r)->families[0];
+  assert_int_equal(ambulo_result_audit(r)->at_lower_bound, 1);
+  assert_true(worst->violation.worst > 100.0 * worst->tolerance);
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL_AT_NODES);
+  assert_false(ambulo_verdict_is_solution(ambulo_result_verdict(r)));
+  assert_non_null(strstr(ambulo_result_dense_audit(r)->summary, "optimal at the nodes only; zmp"));
+  ambulo_result_free(r);
+  ambulo_problem_free(p);
+}
+
+/* up to ten tolerances the verdict stays, beyond them it is that of the nodes */
+static void ten_tolerances_are_the_line(void **state) {
+  (void)state;
+  static const double ratio[] = {0.5, 9.99, 10.0, 10.01, (double)NAN};
+  for (int i = 0; i < 5; i++) {
+    int far_off = i > 2;
+    assert_int_equal(ambulo__verdict_between_nodes(AMBULO_OPTIMAL, ratio[i]),
+                     far_off ? AMBULO_OPTIMAL_AT_NODES : AMBULO_OPTIMAL);
+    assert_int_equal(ambulo__verdict_between_nodes(AMBULO_FEASIBLE, ratio[i]),
+                     far_off ? AMBULO_FEASIBLE_AT_NODES : AMBULO_FEASIBLE);
+    assert_int_equal(ambulo__verdict_between_nodes(AMBULO_INFEASIBLE, ratio[i]), AMBULO_INFEASIBLE);
+  }
 }
 
 /* nothing is advised about a point that is no solution at the nodes either */
@@ -104,7 +134,7 @@ static void a_point_that_is_no_solution_is_only_measured(void **state) {
 /* an audit of the same point says the same as its solve */
 static void an_audit_says_what_the_solve_said(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_problem *p = load_problem("support/two_link_reach");
   ambulo_options options = ambulo_problem_options(p);
   ambulo_result *r = solve(p, NULL), *again = NULL;
   assert_int_equal(ambulo_audit_point(p, &options, ambulo_result_x(r), NULL, NULL, &again),
@@ -242,8 +272,9 @@ static void a_refusal_between_the_nodes_is_told(void **state) {
                              "gait.phases.heel_off=0.49", "gait.phases.toe_off=0.6",
                              "time.intervals=16"};
   ambulo_problem *p = NULL;
-  assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
+      AMBULO_OK);
   check_refusal(p, 10, "the support polygon is empty at t = ");
   ambulo_problem_free(p);
 }
@@ -258,7 +289,7 @@ static int rule_of(ambulo__row_kind kind, ambulo__measure measure) {
 /* lengths and angles of contacts fail alike: the sentence has their family once */
 static void the_sentence_names_a_family_once(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_problem *p = load_problem("support/two_link_reach");
   ambulo__dense_report *report = calloc(1, sizeof *report);
   const ambulo__row_kind kinds[] = {AMBULO__KIND_CONTACT, AMBULO__KIND_ZMP, AMBULO__KIND_CONTACT};
   const ambulo__measure measures[] = {AMBULO__METRES, AMBULO__METRES, AMBULO__RADIANS};
@@ -279,7 +310,7 @@ static void the_sentence_names_a_family_once(void **state) {
 
 static void every_allocation_may_fail(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walker_2d_step");
+  ambulo_problem *p = load_problem("support/walker_2d_step");
   long k = 0;
   for (int done = 0; !done; k++) {
     fail_alloc memory = fail_alloc_at(k);
@@ -299,6 +330,8 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_walk_is_optimal_at_the_nodes_only),
+      cmocka_unit_test(a_lower_bound_excuses_nothing_between_the_nodes),
+      cmocka_unit_test(ten_tolerances_are_the_line),
       cmocka_unit_test(a_motion_that_holds_says_nothing),
       cmocka_unit_test(a_point_that_is_no_solution_is_only_measured),
       cmocka_unit_test(an_audit_says_what_the_solve_said),

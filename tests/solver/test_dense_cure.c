@@ -1,5 +1,6 @@
 /* What is predicted comes true: problems are solved again with the settings that the audit names.
  * (bench/bench_dense.c does the same for every shipped problem.) */
+#include "support/at_nodes.h"
 #include "support/problem_path.h"
 #include "ambulo/tools/load.h"
 #include "support/dense_fixture.h"
@@ -23,7 +24,7 @@ static solved solve_with(const char *name, const char *settings) {
     if (strcmp(word, "--set") != 0) overrides[count++] = word;
   assert_int_equal(ambulo_problem_load(path, overrides, count, NULL, NULL, &s.problem), AMBULO_OK);
   assert_int_equal(ambulo_solve(s.problem, NULL, NULL, NULL, NULL, &s.result), AMBULO_OK);
-  ambulo_verdict verdict = ambulo_result_verdict(s.result);
+  ambulo_verdict verdict = verdict_at_nodes(s.result);
   assert_true(verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE);
   return s;
 }
@@ -81,21 +82,21 @@ static void more_time_intervals_cure_a_walk(void **state) {
 
 static void joint_limits_of_an_arm_too(void **state) {
   (void)state;
-  assert_int_equal(check_all("two_link_reach"), 1);
+  assert_int_equal(check_all("support/two_link_reach"), 1);
 }
 
 /* contacts that are equations: intervals of the trajectory go with those of time; forces need
  * contacts within a tolerance, joint limits need rows on the control points */
 static void contacts_that_are_equations_have_three_cures(void **state) {
   (void)state;
-  assert_int_equal(check_all("walker_2d_step"), 5);
-  assert_int_equal(check_all("walk_without_reaction"), 5);
+  assert_int_equal(check_all("support/walker_2d_step"), 5);
+  assert_int_equal(check_all("support/walk_without_reaction"), 5);
 }
 
 /* families that fail have settings or say that more intervals do not help, or too far off */
 static void no_failure_is_left_without_a_word(void **state) {
   (void)state;
-  static const char *const names[] = {"walker_2d_step", "yardstick_12", "fig5a_feasible"};
+  static const char *const names[] = {"support/walker_2d_step", "yardstick_12", "fig5a_feasible"};
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
     solved s = solve_with(names[n], "");
     const ambulo_dense_audit *dense = ambulo_result_dense_audit(s.result);
@@ -323,8 +324,9 @@ static void motions_that_cannot_be_moved_are_predicted_from_the_nodes(void **sta
   int slip = AMBULO__DENSE_RULE_SLIP;
   memset(&worst, 0, sizeof worst);
   worst.entry[slip] = (ambulo__dense_entry){.present = 1, .ratio = 2.0, .between = 2.0};
-  assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
+      AMBULO_OK);
   double *x = calloc((size_t)p->variables, sizeof *x);
   assert_int_equal(
       ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &allocator, &events),
@@ -361,7 +363,7 @@ static void given_breakpoints_are_left_alone(void **state) {
 
 static void grids_keep_their_proportion_where_contacts_are_equations(void **state) {
   (void)state;
-  ambulo_problem *exact = load_problem("walk_without_reaction"),
+  ambulo_problem *exact = load_problem("support/walk_without_reaction"),
                  *tube = load_problem("support/walk_rigid");
   assert_true(ambulo__dense_is_strict(exact) && !ambulo__dense_is_strict(tube));
   assert_int_equal(ambulo__dense_spline_intervals(exact, 48), 36);

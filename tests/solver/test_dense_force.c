@@ -128,7 +128,7 @@ static void both_parts_of_a_foot_are_summed(void **state) {
 
 static void a_body_that_nothing_carries_has_none(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_problem *p = load_problem("support/two_link_reach");
   ambulo__dense dense;
   double *x = calloc((size_t)p->variables, sizeof *x);
   assert_int_equal(ambulo__dense_open(p, x, 10, 0.0, NULL, NULL, &dense), AMBULO_OK);

@@ -4,11 +4,21 @@
 #include "support/arm.h"
 #include "support/engine_fixture.h"
 
-static const char *const names[] = {"support/walk_rigid", "walk",           "support/walk_rigid",
-                                    "support/walk_rigid", "walk_loaded",    "walk_uphill",
-                                    "walk_tracking",      "yardstick_12",   "walk_asymmetric",
-                                    "fig5b_torque",       "walker_2d_step", "walk_without_reaction",
-                                    "two_link_reach",     "fig5a_feasible", "pendulum_swing"};
+static const char *const names[] = {"support/walk_rigid",
+                                    "walk",
+                                    "support/walk_rigid",
+                                    "support/walk_rigid",
+                                    "walk_loaded",
+                                    "walk_uphill",
+                                    "walk_tracking",
+                                    "yardstick_12",
+                                    "walk_asymmetric",
+                                    "fig5b_torque",
+                                    "support/walker_2d_step",
+                                    "support/walk_without_reaction",
+                                    "support/two_link_reach",
+                                    "fig5a_feasible",
+                                    "pendulum_swing"};
 
 static void check_rows(const char *name, const char *override) {
   ambulo_problem *p = load_problem_with(name, override);
@@ -31,7 +41,7 @@ static void check_rows(const char *name, const char *override) {
 static void every_shipped_row_has_a_rule(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) check_rows(names[i], NULL);
-  check_rows("two_link_reach", "constraints.torque_limits=true");
+  check_rows("support/two_link_reach", "constraints.torque_limits=true");
 }
 
 static void every_kind_has_a_rule_but_ends_and_own_rows(void **state) {
@@ -50,7 +60,7 @@ static void every_kind_has_a_rule_but_ends_and_own_rows(void **state) {
 /* the larger of a coordinate's two bounds, by hand for two_link's own limits */
 static void limits_are_compared_with_the_larger_bound(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_problem *p = load_problem("support/two_link_reach");
   ambulo_coordinate *shoulder = &((ambulo_model *)p->model)->coordinates[0];
   const ambulo__table_row *row = NULL;
   for (int r = 0; r < p->rows && !row; r++) {

@@ -34,7 +34,7 @@ static void close_all(poison *f) {
 /* one row of each family in turn, in the middle of the motion */
 static void a_row_that_is_not_finite_is_named(void **state) {
   (void)state;
-  static const char *const names[] = {"support/walk_rigid", "walk_without_reaction"};
+  static const char *const names[] = {"support/walk_rigid", "support/walk_without_reaction"};
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   int tried = 0;
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
@@ -184,7 +184,7 @@ static void limits_count_by_their_size(void **state) {
   (void)state;
   poison f;
   ambulo__table_row any = {.kind = AMBULO__KIND_JOINT_LIMIT, .measure = AMBULO__RADIANS};
-  open_with(&f, "two_link_reach");
+  open_with(&f, "support/two_link_reach");
   assert_true(f.clean.entry[ambulo__dense_rule_of_row(&any)].present);
   const ambulo_problem *fine = f.dense.fine;
   int r = 0;
@@ -197,7 +197,8 @@ static void limits_count_by_their_size(void **state) {
   ambulo__dense_worst_of(&f.dense, &f.events, &f.worst);
   assert_close(f.worst.entry[ambulo__dense_rule_of_row(row)].ratio, 1.5, 1e-12);
   close_all(&f);
-  f.problem = load_problem_with("two_link_reach", "constraints.joint_limits=control_points");
+  f.problem =
+      load_problem_with("support/two_link_reach", "constraints.joint_limits=control_points");
   double *x = calloc((size_t)f.problem->variables, sizeof *x);
   for (int i = 0; i < f.problem->variables; i++) x[i] = 20.0;
   assert_int_equal(ambulo__dense_open(f.problem, x, 10, 0.0, NULL, NULL, &f.dense), AMBULO_OK);

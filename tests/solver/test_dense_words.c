@@ -66,8 +66,10 @@ static void settings_that_stay_are_not_named(void **state) {
   } cases[] = {
       {"support/walk_rigid", NULL, "--set time.intervals=50", 17},
       {"support/walk_rigid", NULL, "--set time.intervals=50 --set trajectory.intervals=34", 34},
-      {"walk_without_reaction", NULL, "--set time.intervals=50 --set trajectory.intervals=38", 38},
-      {"walk_without_reaction", "trajectory={basis: bspline}", "--set time.intervals=50", 50},
+      {"support/walk_without_reaction", NULL,
+       "--set time.intervals=50 --set trajectory.intervals=38", 38},
+      {"support/walk_without_reaction", "trajectory={basis: bspline}", "--set time.intervals=50",
+       50},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     told *t = open_told(cases[i].name, cases[i].override);
@@ -86,7 +88,7 @@ static void joint_limits_on_control_points_take_a_spline(void **state) {
   (void)state;
   const char *const overrides[] = {NULL, "trajectory={basis: hermite}"};
   for (int i = 0; i < 2; i++) {
-    told *t = open_told("two_link_reach", overrides[i]);
+    told *t = open_told("support/two_link_reach", overrides[i]);
     add(t, AMBULO__KIND_JOINT_LIMIT, AMBULO__RADIANS, 2.0);
     tell(t, &t->cure);
     assert_string_equal(t->report.family[0].settings,
@@ -102,14 +104,14 @@ static void joint_limits_on_control_points_take_a_spline(void **state) {
  * three times the larger of its two grids; contacts within a tolerance have no such cure */
 static void forces_between_exact_contacts_take_a_tolerance(void **state) {
   (void)state;
-  told *t = open_told("walk_without_reaction", NULL);
+  told *t = open_told("support/walk_without_reaction", NULL);
   add(t, AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 2.0);
   tell(t, &t->cure);
   assert_string_equal(t->report.family[0].settings,
                       "--set constraints.contact_tolerance=0.002 --set time.intervals=72");
   has(t->report.family[0].advice, "more intervals do not help while contacts are exact");
   close_told(t);
-  t = open_told("walk_without_reaction", "trajectory.intervals=40");
+  t = open_told("support/walk_without_reaction", "trajectory.intervals=40");
   add(t, AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 2.0);
   tell(t, &t->cure);
   assert_string_equal(t->report.family[0].settings,
@@ -126,7 +128,7 @@ static void forces_between_exact_contacts_take_a_tolerance(void **state) {
 /* what takes more intervals than are tried is told apart from what none help */
 static void too_far_off_is_no_cannot(void **state) {
   (void)state;
-  told *t = open_told("walk_without_reaction", NULL);
+  told *t = open_told("support/walk_without_reaction", NULL);
   t->cure.out_of_reach[add(t, AMBULO__KIND_SLIP, AMBULO__METRES, 90.0)] = 1;
   add(t, AMBULO__KIND_CLEARANCE, AMBULO__METRES, 2.0);
   tell(t, &t->cure);
@@ -134,10 +136,11 @@ static void too_far_off_is_no_cannot(void **state) {
   has(t->report.family[0].advice,
       "too far off on a grid this coarse to predict how many intervals it takes; look again with "
       "--set time.intervals=48 --set trajectory.intervals=36");
-  assert_string_equal(t->report.summary,
-                      "optimal at the nodes, not between them; slip: too far off on a grid this "
-                      "coarse to predict how many intervals it takes; clearance: more intervals "
-                      "do not help");
+  assert_string_equal(
+      t->report.summary,
+      "optimal, but a little off between the nodes; slip: too far off on a grid this "
+      "coarse to predict how many intervals it takes; clearance: more intervals "
+      "do not help");
   close_told(t);
 }
 
@@ -150,7 +153,7 @@ static void what_is_not_finite_has_no_number(void **state) {
   assert_string_equal(t->report.line[0], "slip: not finite (knee upper, t = 0.25 s; tolerance 0.5 "
                                          "m): the motion overflows there");
   assert_string_equal(t->report.summary,
-                      "optimal at the nodes, not between them; slip: not finite");
+                      "optimal, but a little off between the nodes; slip: not finite");
   close_told(t);
 }
 
@@ -170,8 +173,9 @@ static void only_what_fails_is_told(void **state) {
                       "--set time.intervals=50");
   has(t->report.line[1], "friction: 1.5 body weights (");
   assert_string_equal(t->report.family[1].settings, "");
-  assert_string_equal(t->report.summary, "optimal at the nodes, not between them; slip, friction: "
-                                         "again with --set time.intervals=50");
+  assert_string_equal(t->report.summary,
+                      "optimal, but a little off between the nodes; slip, friction: "
+                      "again with --set time.intervals=50");
   close_told(t);
 }
 
@@ -189,10 +193,11 @@ static void the_sentence_groups_by_cure(void **state) {
   add(t, AMBULO__KIND_CLEARANCE, AMBULO__RADIANS, 2.0);
   t->cure.cured[add(t, AMBULO__KIND_PRESSURE, AMBULO__METRES, 1.5)] = 1;
   tell(t, &t->cure);
-  assert_string_equal(t->report.summary,
-                      "optimal at the nodes, not between them; contact, pressure: again with --set "
-                      "time.intervals=50; clearance: more intervals do not help; slip: too far off "
-                      "on a grid this coarse to predict how many intervals it takes");
+  assert_string_equal(
+      t->report.summary,
+      "optimal, but a little off between the nodes; contact, pressure: again with --set "
+      "time.intervals=50; clearance: more intervals do not help; slip: too far off "
+      "on a grid this coarse to predict how many intervals it takes");
   t->cure.cured[t->report.family_rule[3]] = 0;
   tell(t, &t->cure);
   has(t->report.summary, "; contact, pressure: again with --set time.intervals=50; clearance, "

@@ -5,7 +5,7 @@
 static void an_arm(void **state) {
   (void)state;
   static const setting c = {
-      "models/two_link_reach.yaml",
+      "tests/support/two_link_reach.yaml",
       {"objective=[{term: torque_absolute, smoothing: 2, scale: {shoulder: 1.1, elbow: 0.9}, "
        "offset: {shoulder: 3, elbow: -1}}, "
        "{term: torque_rate, weight: 0.001, scale: {shoulder: 0.7}}, "
@@ -27,7 +27,7 @@ static void an_arm(void **state) {
 static void a_planar_step(void **state) {
   (void)state;
   static const setting c = {
-      "models/walker_2d_step.yaml",
+      "tests/support/walker_2d_step.yaml",
       {"angles=degrees", "constraints.zmp_margin=0.005", "constraints.speed_limits=true",
        "constraints.minimum_force=0.1", "constraints.torque_limits=true"},
       {"gait.step_length", "gait.speed", "subject.mass", "ground.slope", "constraints.zmp_margin",
@@ -51,7 +51,7 @@ static void four_steps_on_hulls(void **state) {
 static void contacts_one_by_one(void **state) {
   (void)state;
   static const setting c = {
-      "models/walker_2d_step.yaml",
+      "tests/support/walker_2d_step.yaml",
       {"gait=null", "ends=null", "time.duration=0.5", "angles=degrees",
        "contacts=[{foot: right, mode: flat, from: 0, to: 0.4, place: [0, 0]}, "
        "{foot: left, mode: heel, from: 0.3, to: 0.5, place: [0.4, 0]}]"},
@@ -62,7 +62,7 @@ static void contacts_one_by_one(void **state) {
 /* the root is carried forward and up, and each by itself */
 static void ends_that_rise(void **state) {
   (void)state;
-  static const setting c = {"models/walker_2d_step.yaml",
+  static const setting c = {"tests/support/walker_2d_step.yaml",
                             {"gait=null", "time.duration=0.5", "constraints={joint_limits: nodes}",
                              "ends={kind: mirrored, order: 1, travel: 0.5, rise: 0.1}"},
                             {"ends.travel", "ends.rise", "time.duration"}};
@@ -71,7 +71,7 @@ static void ends_that_rise(void **state) {
 
 static void breakpoints_stay_in_seconds(void **state) {
   (void)state;
-  static const setting c = {"models/two_link_reach.yaml",
+  static const setting c = {"tests/support/two_link_reach.yaml",
                             {"trajectory.intervals=null", "trajectory.breakpoints=[0, 0.3, 0.8]"},
                             {"ends.initial.shoulder"}};
   check(&c, "time.duration");

@@ -73,7 +73,7 @@ static void forces_balance_where_rows_conflict(void **state) {
 static void a_passed_deadline_leaves_x_alone(void **state) {
   (void)state;
   elastic_fixture f;
-  open_problem(&f, "walker_2d_step");
+  open_problem(&f, "support/walker_2d_step");
   f.elastic.deadline = 0.0;
   assert_int_equal(ambulo__elastic_minimize(&f.elastic, f.engine.x), 0);
   for (int j = 0; j < f.engine.n; j++) assert_true(f.engine.x[j] == 0.0);
@@ -90,7 +90,7 @@ static void the_caller_can_stop_it(void **state) {
   (void)state;
   elastic_fixture f;
   int calls = 0;
-  open_problem(&f, "walker_2d_step");
+  open_problem(&f, "support/walker_2d_step");
   f.engine.options.progress = refuse;
   f.engine.options.user = &calls;
   assert_int_equal(ambulo__elastic_minimize(&f.elastic, f.engine.x), 0);
@@ -110,7 +110,7 @@ static void the_caller_is_asked_at_every_step(void **state) {
   for (int calls = 1; calls < 8; calls++) {
     elastic_fixture f;
     int left = calls;
-    open_problem(&f, "walker_2d_step");
+    open_problem(&f, "support/walker_2d_step");
     f.engine.options.progress = refuse_later;
     f.engine.options.user = &left;
     assert_int_equal(ambulo__elastic_minimize(&f.elastic, f.engine.x), 0);

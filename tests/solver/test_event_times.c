@@ -147,7 +147,7 @@ static void terms_written_for(void **state) {
 static void a_planar_step_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "models/walker_2d_step.yaml",
+      "tests/support/walker_2d_step.yaml",
       {"angles=degrees", "constraints.zmp_margin=0.005", "constraints.speed_limits=true",
        "constraints.minimum_force=0.1", "trajectory.degree=4", ON_EVENTS},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
@@ -170,7 +170,7 @@ static void four_steps_on_hulls_on_events(void **state) {
 static void contacts_one_by_one_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "models/walker_2d_step.yaml",
+      "tests/support/walker_2d_step.yaml",
       {"gait=null", "ends=null", "time.duration=0.5", "angles=degrees",
        "contacts=[{foot: right, mode: flat, from: 0, to: 0.3, place: [0, 0]}, "
        "{foot: right, mode: toe, from: 0.3, to: 0.4, place: [0.01, 0]}, "
@@ -249,10 +249,10 @@ static void a_limp_on_events(void **state) {
 static void times_that_coincide(void **state) {
   (void)state;
   static const setting strike_at_0 = {"models/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
-                       heel_with_strike = {"models/walk_without_reaction.yaml",
+                       heel_with_strike = {"tests/support/walk_without_reaction.yaml",
                                            {"gait.phases.heel_off=0.44", ON_EVENTS},
                                            {"gait.phases.toe_off", "gait.phases.foot_flat"}},
-                       uniform = {"models/walker_2d_step.yaml", {NULL}, {NULL}},
+                       uniform = {"tests/support/walker_2d_step.yaml", {NULL}, {NULL}},
                        on_a_knot = {"models/walk_loaded.yaml",
                                     {"time.grid=events", "trajectory.intervals=25",
                                      "trajectory.knots=uniform", "trajectory.degree=3"},
@@ -286,8 +286,9 @@ static int has_duration(const ambulo_problem_definition *definition) {
 static void node_times_have_no_duration(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load("models/two_link_reach.yaml", NULL, 0, NULL, NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/two_link_reach.yaml", NULL, 0, NULL, NULL, &problem),
+      AMBULO_OK);
   ambulo_problem_definition d = problem->definition;
   d.grid = AMBULO_GRID_EVENTS;
   assert_int_equal(has_duration(&d), 1);

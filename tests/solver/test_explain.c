@@ -3,6 +3,7 @@
  * it stands, and leads to a motion that satisfies every row. */
 #include "ambulo/tools/tools.h"
 #include "solver/explain.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"
 
@@ -134,10 +135,10 @@ static void follow(const example *e, const ambulo_explanation *explanation) {
                    AMBULO_OK);
   ambulo_options options = ambulo_problem_options(problem);
   ambulo_result *result = solve(problem, &options);
-  if (!ambulo_verdict_is_solution(ambulo_result_verdict(result)))
+  if (!ambulo_verdict_is_solution(verdict_at_nodes(result)))
     print_error("%s with %s is %s\n", e->file, explanation->settings[0],
-                ambulo_verdict_name(ambulo_result_verdict(result)));
-  assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+                ambulo_verdict_name(verdict_at_nodes(result)));
+  assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
   assert_null(ambulo_result_explanation(result));
   ambulo_result_free(result);
   ambulo_problem_free(problem);
@@ -151,7 +152,7 @@ static void are_explained(void **state) {
     assert_int_equal(load(explained[i].file, NULL, &problem), AMBULO_OK);
     ambulo_options options = ambulo_problem_options(problem);
     ambulo_result *result = solve(problem, &options);
-    assert_int_equal(ambulo_result_verdict(result), AMBULO_INFEASIBLE);
+    assert_int_equal(verdict_at_nodes(result), AMBULO_INFEASIBLE);
     const ambulo_explanation *e = ambulo_result_explanation(result);
     assert_non_null(e);
     assert_consistent(e);
@@ -205,7 +206,7 @@ static void a_limit_of_the_mirrored_half_is_named(void **state) {
                                           "constraints.joint_limits=nodes"};
   ambulo_problem *problem = NULL;
   assert_int_equal(
-      ambulo_problem_load("models/walker_2d_step.yaml", overrides, 2, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walker_2d_step.yaml", overrides, 2, NULL, NULL, &problem),
       AMBULO_OK);
   double latest = 0.0;
   for (int r = 0; r < problem->rows; r++) latest = fmax(latest, problem->table.rows[r].time);
@@ -231,7 +232,7 @@ static void limits_that_the_motion_rests_on_have_the_models_numbers(void **state
       "model.links[pelvis_forward].coordinate.range=[-0.1, 0.5863]"};
   ambulo_problem *problem = NULL;
   assert_int_equal(
-      ambulo_problem_load("models/walker_2d_step.yaml", overrides, 2, NULL, NULL, &problem),
+      ambulo_problem_load("tests/support/walker_2d_step.yaml", overrides, 2, NULL, NULL, &problem),
       AMBULO_OK);
   ambulo_options options = ambulo_problem_options(problem);
   ambulo_result *result = solve(problem, &options);
@@ -264,7 +265,7 @@ static void good_ends_and_audits_need_no_explanation(void **state) {
   assert_null(ambulo_result_explanation(result));
   double *zero = calloc((size_t)ambulo_problem_variable_count(problem), sizeof *zero);
   assert_int_equal(ambulo_audit_point(problem, &options, zero, NULL, NULL, &audit), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(audit), AMBULO_INFEASIBLE);
+  assert_int_equal(verdict_at_nodes(audit), AMBULO_INFEASIBLE);
   assert_null(ambulo_result_explanation(audit));
   free(zero);
   ambulo_result_free(audit);
@@ -275,17 +276,17 @@ static void good_ends_and_audits_need_no_explanation(void **state) {
 /* too few evaluations: a motion exists, and the explanation says so */
 static void a_missed_solution_is_named(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_problem *problem = load_problem("support/two_link_reach");
   ambulo_options options = ambulo_problem_options(problem);
   options.maximum_evaluations = 1;
   ambulo_result *result = solve(problem, &options);
-  if (ambulo_result_verdict(result) == AMBULO_LIMIT_REACHED) {
+  if (verdict_at_nodes(result) == AMBULO_LIMIT_REACHED) {
     const ambulo_explanation *e = ambulo_result_explanation(result);
     assert_non_null(e);
     assert_true(e->feasible_point);
     assert_int_equal(e->conflict_count, 0);
   } else {
-    assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+    assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
   }
   ambulo_result_free(result);
   ambulo_problem_free(problem);
@@ -321,7 +322,7 @@ static void a_cap_is_to_be_raised(void **state) {
 /* rows that hold to 1e-8 of their size are not "in conflict", whatever tolerance was asked for */
 static void what_all_but_holds_is_no_conflict(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("walk_without_reaction");
+  ambulo_problem *problem = load_problem("support/walk_without_reaction");
   ambulo_options options = ambulo_problem_options(problem);
   options.feasibility_tolerance = 1e-14;
   options.maximum_iterations = 60;
@@ -329,14 +330,14 @@ static void what_all_but_holds_is_no_conflict(void **state) {
   const ambulo_explanation *e = ambulo_result_explanation(result);
   double left = ambulo_result_audit(result)->violation.worst, asked = 0.0;
   if (e && left < 1e-6) {
-    assert_int_equal(ambulo_result_verdict(result), AMBULO_LIMIT_REACHED);
+    assert_int_equal(verdict_at_nodes(result), AMBULO_LIMIT_REACHED);
     assert_int_equal(e->conflict_count, 0);
     assert_int_equal(e->on_limit_count, 0);
     assert_int_equal(e->setting_count, 1);
     assert_int_equal(sscanf(e->settings[0], "solver.feasibility_tolerance=%lf", &asked), 1);
     assert_true(asked > left && asked < 10.0 * left);
   } else {
-    assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+    assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
   }
   ambulo_result_free(result);
   ambulo_problem_free(problem);
@@ -349,7 +350,7 @@ static void a_spent_time_limit_is_kept(void **state) {
   ambulo_options options = ambulo_problem_options(problem);
   options.time_limit = 0.02;
   ambulo_result *result = solve(problem, &options);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_LIMIT_REACHED);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_LIMIT_REACHED);
   const ambulo_explanation *e = ambulo_result_explanation(result);
   assert_non_null(e);
   assert_false(e->complete);

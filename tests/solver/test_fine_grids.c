@@ -1,6 +1,7 @@
 /* Grids that are finer by four: the same problem is solved, in little more iterations. What each
  * holds: penalties row by row where common ones drown the metric (linear/kkt.c), and polishing that
  * is relative to the metric (method/stopping.c). */
+#include "support/at_nodes.h"
 #include "support/problem_path.h"
 #include "ambulo/tools/load.h"
 #include "support/engine_fixture.h"
@@ -21,11 +22,10 @@ static int iterations(const char *name, int intervals, double *objective) {
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   int count = ambulo_result_iterations(result);
-  if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+  if (verdict_at_nodes(result) != AMBULO_OPTIMAL)
     print_error("%s on %d: %s, KKT %.1e\n", name, intervals,
-                ambulo_verdict_name(ambulo_result_verdict(result)),
-                ambulo_result_audit(result)->kkt);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+                ambulo_verdict_name(verdict_at_nodes(result)), ambulo_result_audit(result)->kkt);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   *objective = ambulo_result_objective(result);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
@@ -40,10 +40,10 @@ static void iterations_do_not_follow_the_grid(void **state) {
     int coarse, fine;
     double objective; /* on the fine grid, known from several ways to it */
   } cases[] = {{"yardstick_72", 72, 288, 2.65089},
-               {"walker_2d_step", 40, 160, 1.0943},
-               {"walker_2d_step", 160, 640, 1.0999},
+               {"support/walker_2d_step", 40, 160, 1.0943},
+               {"support/walker_2d_step", 160, 640, 1.0999},
                {"support/walk_rigid", 25, 100, 0.061922},
-               {"two_link_reach", 40, 2560, 5.16544}};
+               {"support/two_link_reach", 40, 2560, 5.16544}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     double objective;
     int before = iterations(cases[i].name, cases[i].coarse, &objective);
@@ -65,7 +65,7 @@ static void tight_tolerances_are_met(void **state) {
     ambulo_result *result = NULL;
     options.feasibility_tolerance = tolerance[i];
     assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-    assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
     assert_true(ambulo_result_audit(result)->kkt < 1e-4);
     ambulo_result_free(result);
   }

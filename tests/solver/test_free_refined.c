@@ -2,6 +2,7 @@
 #include "ambulo/parameters.h"
 #include "ambulo/tools/load.h"
 #include "solver/result.h"
+#include "support/at_nodes.h"
 #include "support/problem_path.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
@@ -24,7 +25,7 @@ static void the_last_grid_holds_between_its_nodes(void **state) {
   assert_int_equal(ambulo_solve_refined(problem, NULL, NULL, NULL, NULL, &finer, &result),
                    AMBULO_OK);
   assert_non_null(finer);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(result), AMBULO_OPTIMAL);
   assert_int_equal(ambulo_result_dense_audit(result)->failing, 0);
   /* it is the problem that the file is with these intervals */
   char nodes[48], knots[48];
@@ -83,7 +84,7 @@ static void a_stop_keeps_the_best(void **state) {
 
 static void memory_runs_out(void **state) {
   (void)state;
-  ambulo_problem *problem = load("walker_2d_step", NULL, 0);
+  ambulo_problem *problem = load("support/walker_2d_step", NULL, 0);
   for (long at = 0;; at += at < 30 ? 1 : 97) {
     fail_alloc memory = fail_alloc_at(at);
     ambulo_allocator hook = fail_alloc_hook(&memory);

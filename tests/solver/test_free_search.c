@@ -1,5 +1,6 @@
 /* Free parameters: the run finds what a search over problems solved one by one finds. */
 #include "problem/nlp.h"
+#include "support/at_nodes.h"
 #include "support/outer_fixture.h"
 #include "ambulo/tools/load.h"
 
@@ -60,7 +61,7 @@ static void compare(const search *c, const char *freed, double lower, double upp
   solved s = solve(c->file, overrides, c->count + 1, NULL);
   const ambulo_parameter_value *p = &s.outcome->items[0];
   double searched = golden(c, lower, upper, 12);
-  assert_int_equal(ambulo_result_verdict(s.result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(s.result), AMBULO_OPTIMAL);
   assert_int_equal(s.outcome->converged, 1);
   assert_int_equal(p->bound, AMBULO_BETWEEN);
   assert_string_equal(p->name, c->key);
@@ -140,7 +141,7 @@ static void a_phase_of_shared_contacts(void **state) {
   static const char *const overrides[] = {SHARED_ON_EVENTS,
                                           "free={gait.phases.heel_off: [0.2, 0.4]}"};
   solved s = solve(PLANAR, overrides, 5, NULL);
-  assert_int_equal(ambulo_result_verdict(s.result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(s.result), AMBULO_OPTIMAL);
   assert_int_equal(s.outcome->items[0].bound, AMBULO_AT_UPPER);
   assert_true(s.outcome->items[0].derivative < 0.0);
   assert_true(s.outcome->objective < 0.9 * s.outcome->first);
@@ -212,7 +213,7 @@ static void where_the_first_has_none_nothing_is_varied(void **state) {
   static const char *const overrides[] = {"gait.step_length=1.9",
                                           "free={gait.step_length: [0.4, 3]}"};
   solved s = solve(PLANAR, overrides, 2, NULL);
-  assert_false(ambulo_verdict_is_solution(ambulo_result_verdict(s.result)));
+  assert_false(ambulo_verdict_is_solution(verdict_at_nodes(s.result)));
   assert_non_null(ambulo_result_explanation(s.result));
   assert_int_equal(s.outcome->solves, 1);
   assert_int_equal(s.outcome->failed, 1);

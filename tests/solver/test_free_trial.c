@@ -1,4 +1,5 @@
 /* Runs over free parameters that are cut short: by the caller, by limits, without memory. */
+#include "support/at_nodes.h"
 #include "support/outer_fixture.h"
 #include "ambulo/tools/load.h"
 
@@ -29,7 +30,7 @@ static void the_caller_may_stop(void **state) {
     options.progress = watch;
     options.user = &w;
     solved s = solve(PLANAR, overrides, 1, &options);
-    ambulo_verdict verdict = ambulo_result_verdict(s.result);
+    ambulo_verdict verdict = verdict_at_nodes(s.result);
     assert_int_equal(verdict, stop == 1 ? AMBULO_INTERRUPTED : AMBULO_OPTIMAL);
     if (stop) {
       assert_int_equal(s.outcome->solves, stop);
@@ -51,7 +52,7 @@ static void limits_hold(void **state) {
   assert_int_equal(s.outcome->solves, 3);
   assert_int_equal(s.outcome->converged, 0);
   assert_non_null(strstr(s.outcome->ending, "limit of inner solves"));
-  assert_int_equal(ambulo_result_verdict(s.result), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(s.result), AMBULO_OPTIMAL);
   release(&s);
   ambulo_options options = ambulo_options_default();
   options.time_limit = 1e-6;

@@ -1,5 +1,6 @@
 /* Values and derivatives that are not finite: whatever is poisoned, wherever, no solve and no audit
  * ends optimal unless it is, and none is silent about it. */
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "support/messages.h"
 #include "support/poison.h"
@@ -37,7 +38,7 @@ static outcome solve(const ambulo_problem *problem, int iterations) {
   collect(list, o.text, sizeof o.text);
   if (!o.status) {
     size_t bytes = (size_t)ambulo_problem_variable_count(problem) * sizeof *o.x;
-    o.verdict = ambulo_result_verdict(result);
+    o.verdict = verdict_at_nodes(result);
     o.fault = ambulo_result_audit(result)->fault;
     o.objective = ambulo_result_objective(result);
     o.x = malloc(bytes);
@@ -127,7 +128,7 @@ static void audits(void **state) {
       ambulo_result *result = NULL;
       assert_int_equal(ambulo_audit_point(s.f.problem, NULL, good.x, NULL, NULL, &result),
                        AMBULO_OK);
-      assert_int_equal(ambulo_result_verdict(result), AMBULO_NUMERIC_FAILURE);
+      assert_int_equal(verdict_at_nodes(result), AMBULO_NUMERIC_FAILURE);
       assert_int_equal(ambulo_result_audit(result)->fault.node, 7);
       assert_true(isinf(ambulo_result_audit(result)->kkt));
       ambulo_result_free(result);
@@ -213,7 +214,7 @@ static void expect_truth(ambulo_problem *problem, const outcome *o, const char *
   if (!ambulo_verdict_is_solution(o->verdict)) return;
   ambulo_result *clean = NULL;
   assert_int_equal(ambulo_audit_point(problem, NULL, o->x, NULL, NULL, &clean), AMBULO_OK);
-  ambulo_verdict truth = ambulo_result_verdict(clean);
+  ambulo_verdict truth = verdict_at_nodes(clean);
   int same =
       o->verdict == AMBULO_OPTIMAL ? truth == AMBULO_OPTIMAL : ambulo_verdict_is_solution(truth);
   if (!same)
@@ -248,12 +249,12 @@ static void poison_all(const char *name, int stride, int iterations, int least) 
 
 static void small_mechanics(void **state) {
   (void)state;
-  poison_all("two_link_reach", 1, 0, 12);
+  poison_all("support/two_link_reach", 1, 0, 12);
 }
 
 static void mechanics_of_a_step(void **state) {
   (void)state;
-  poison_all("walker_2d_step", 11, 3, 8);
+  poison_all("support/walker_2d_step", 11, 3, 8);
 }
 
 /* ------------------------------------------ every kind of row and of term */
@@ -275,7 +276,8 @@ static int poison_row(ambulo_problem *problem, ambulo__kernels *own, int r) {
  * an audit of the solution without it would not be called optimal with it. */
 static void every_family(void **state) {
   (void)state;
-  static const char *const names[] = {"support/walk_rigid", "yardstick_12", "two_link_reach"};
+  static const char *const names[] = {"support/walk_rigid", "yardstick_12",
+                                      "support/two_link_reach"};
   int families = 0;
   for (size_t i = 0; i < COUNT(names); i++) {
     ambulo_problem *problem = load_problem(names[i]);

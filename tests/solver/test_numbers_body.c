@@ -70,7 +70,7 @@ static void several_loads(void **state) {
 static void strikes_that_move(void **state) {
   (void)state;
   static const setting c = {
-      "models/walker_2d_step.yaml",
+      "tests/support/walker_2d_step.yaml",
       {"gait=null", "ends={kind: periodic, order: 1, travel: 0.8}", "time.duration=1",
        "angles=degrees",
        "contacts=[{foot: right, mode: flat, from: 0, to: 0.45, place: [0, 0]}, "
@@ -158,7 +158,7 @@ static void times_that_are_shared_have_none(void **state) {
   static const char *const absent[] = {"load[box].from", "load[box].to", "load[box].ramp", NULL};
   expect_absent(&c, absent);
   /* a longer motion would have its end inside */
-  static const setting at_the_end = {"models/two_link_reach.yaml",
+  static const setting at_the_end = {"tests/support/two_link_reach.yaml",
                                      {"load={hands: [hand], mass: 1.5, from: 0.2, to: 0.8}"},
                                      {NULL}};
   static const char *const no_duration[] = {"time.duration", "load.to", NULL};
@@ -183,7 +183,7 @@ static void a_wall_and_a_bag(void **state) {
 /* without a ground: the window stays in seconds while the motion is slowed down */
 static void in_the_hand_of_an_arm(void **state) {
   (void)state;
-  static const setting c = {"models/two_link_reach.yaml",
+  static const setting c = {"tests/support/two_link_reach.yaml",
                             {"load={hands: [hand], mass: 1.5, force: [3, 0, -2], from: 0.21, to: "
                              "0.69, ramp: 0.1}"},
                             {"load.mass", "load.force[0]", "load.force[2]", "load.from", "load.to",

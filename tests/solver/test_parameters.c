@@ -4,7 +4,7 @@
 #include "solver/sensitivity.h"
 #include "support/test.h"
 
-static const char arm[] = "models/two_link_reach.yaml", walk[] = "models/walk_normal.yaml";
+static const char arm[] = "tests/support/two_link_reach.yaml", walk[] = "models/walk_normal.yaml";
 
 typedef struct numbers {
   ambulo_problem *problem;

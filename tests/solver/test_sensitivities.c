@@ -2,6 +2,7 @@
  */
 #include "ambulo/tools/tools.h"
 #include "solver/result.h"
+#include "support/at_nodes.h"
 #include "support/fail_alloc.h"
 #include "support/moved_problem.h"
 
@@ -19,7 +20,7 @@ static ambulo_result *solve(const ambulo_problem *problem, const double *start) 
   ambulo_options options = tight(problem);
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_solve(problem, &options, start, NULL, NULL, &result), AMBULO_OK);
-  assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+  assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
   return result;
 }
 
@@ -80,7 +81,7 @@ static void an_arm_solved_anew(void **state) {
                                       "objective[torque_squared].scale.elbow",
                                       "model.links[upper].coordinate.range[0]",
                                       NULL};
-  compare("models/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
+  compare("tests/support/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
 }
 
 /* what a hand holds for a while; its times lie between nodes */
@@ -90,7 +91,7 @@ static void a_load_solved_anew(void **state) {
       "load={hands: [hand], mass: 1.5, force: [3, 0, -2], from: 0.21, to: 0.69, ramp: 0.12}"};
   static const char *const names[] = {"load.mass", "load.force[0]", "load.force[2]", "load.from",
                                       "load.to",   "load.ramp",     "time.duration", NULL};
-  compare("models/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
+  compare("tests/support/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
 }
 
 /* on grids on events, whose nodes go along; multipliers of the second are not known as well */
@@ -111,8 +112,8 @@ static void a_load_on_events_solved_anew(void **state) {
       "trajectory.degree=5"};
   static const char *const names[] = {"load.mass", "load.force[2]", NULL};
   static const char *const times[] = {"load.from", "load.to", "load.ramp", "load.mass", NULL};
-  compare("models/two_link_reach.yaml", arm, 3, times, 1e-3, 1e-5);
-  compare("models/walker_2d_step.yaml", step, 8, names, 3e-2, 1e-4);
+  compare("tests/support/two_link_reach.yaml", arm, 3, times, 1e-3, 1e-5);
+  compare("tests/support/walker_2d_step.yaml", step, 8, names, 3e-2, 1e-4);
 }
 
 static void a_planar_step_solved_anew(void **state) {
@@ -126,7 +127,7 @@ static void a_planar_step_solved_anew(void **state) {
                                       "model.links[shank_r].coordinate.range[0]",
                                       "objective[torque_squared].scale.hip_flexion_r",
                                       NULL};
-  compare("models/walker_2d_step.yaml", base, 2, names, 1e-3, 1e-4);
+  compare("tests/support/walker_2d_step.yaml", base, 2, names, 1e-3, 1e-4);
 }
 
 static void four_steps_solved_anew(void **state) {
@@ -149,7 +150,7 @@ static void phases_solved_anew(void **state) {
                                       "gait.phases.toe_off",
                                       "gait.speed",
                                       NULL};
-  compare("models/walker_2d_step.yaml", base, 6, names, 3e-3, 1e-3);
+  compare("tests/support/walker_2d_step.yaml", base, 6, names, 3e-3, 1e-3);
 }
 
 #define SHARED_ON_EVENTS                                                                           \
@@ -173,8 +174,8 @@ static void contacts_that_share_solved_anew(void **state) {
                                       "subject.mass",
                                       "gait.speed",
                                       NULL};
-  compare("models/walker_2d_step.yaml", base, 11, phases, 1e-3, 5e-2);
-  compare("models/walker_2d_step.yaml", base, 11, names, 2e-3, 5e-2);
+  compare("tests/support/walker_2d_step.yaml", base, 11, phases, 1e-3, 5e-2);
+  compare("tests/support/walker_2d_step.yaml", base, 11, names, 2e-3, 5e-2);
 }
 
 /* onto a slope, all of a stance at once, times that contacts of both feet share */
@@ -204,13 +205,13 @@ static void a_step_up_solved_anew(void **state) {
                                       "contacts[3].from",
                                       NULL};
   static const char *const slope[] = {"contacts[3].normal[0]", NULL};
-  compare("models/walker_2d_step.yaml", base, 18, names, 1e-3, 5e-2);
-  compare("models/walker_2d_step.yaml", base, 18, slope, 0.1, 5e-2);
+  compare("tests/support/walker_2d_step.yaml", base, 18, names, 1e-3, 5e-2);
+  compare("tests/support/walker_2d_step.yaml", base, 18, slope, 0.1, 5e-2);
 }
 
 /* --------------------------------------------------------------- what is said */
 
-static const char step[] = "models/walker_2d_step.yaml";
+static const char step[] = "tests/support/walker_2d_step.yaml";
 
 typedef struct solved {
   ambulo_problem *problem;

@@ -15,6 +15,7 @@
 #include "ambulo/sensitivity.h"
 #include "problem/nlp.h"
 #include "solver/result.h"
+#include "support/problem_path.h"
 #include "support/test.h"
 
 enum { MOST_LINES = 600, NAME = 200, WAVE_PERIOD = 1000 };
@@ -122,10 +123,21 @@ static void gather(const ambulo_sensitivity_list *list, lines *all) {
 /* ------------------------------------------------------------------ comparing */
 
 static int is_quick(const char *problem) {
-  static const char *const quick[] = {
-      "fig5b_torque",  "hop",       "pendulum_swing",         "run_forefoot",   "squat",
-      "stairs_up",     "step_over", "two_link_reach",         "walk",           "walk_asymmetric",
-      "walk_tracking", "walk_turn", "walk_ankle_exoskeleton", "walker_2d_step", "yardstick_12"};
+  static const char *const quick[] = {"fig5b_torque",
+                                      "hop",
+                                      "pendulum_swing",
+                                      "run_forefoot",
+                                      "squat",
+                                      "stairs_up",
+                                      "step_over",
+                                      "support/two_link_reach",
+                                      "walk",
+                                      "walk_asymmetric",
+                                      "walk_tracking",
+                                      "walk_turn",
+                                      "walk_ankle_exoskeleton",
+                                      "support/walker_2d_step",
+                                      "yardstick_12"};
   for (size_t i = 0; i < sizeof quick / sizeof *quick; i++)
     if (strcmp(problem, quick[i]) == 0) return 1;
   return getenv("AMBULO_LONG") != NULL;
@@ -180,7 +192,7 @@ static int compare(const char *problem, double parts, const line *want, const li
 static void open_problem(const char *name, lines *all) {
   char path[256];
   ambulo_problem *problem = NULL;
-  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  problem_path(name, path, sizeof path);
   assert_int_equal(ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem), AMBULO_OK);
   ambulo_sensitivity_list *list = list_of(problem);
   gather(list, all);

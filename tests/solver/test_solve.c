@@ -1,5 +1,6 @@
 /* ambulo_solve as a caller meets it. */
 #include "mechanics/kernels.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
@@ -18,7 +19,7 @@ static void yardstick_is_solved_from_zero(void **state) {
   ambulo_result *r = solve(problem, ambulo_options_default());
   double f = ambulo_result_objective(r);
   if (f > 0.3568) print_error("f = %.6f: %s\n", f, ambulo_result_ending(r));
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_OPTIMAL);
   assert_true(f <= 0.3568);
   assert_true(ambulo_result_audit(r)->violation.worst <= 1e-6);
   assert_true(ambulo_result_timing(r)->total > 0.0);
@@ -33,7 +34,7 @@ static void grids_continue_from_coarser_ones(void **state) {
   ambulo_result *r = solve(problem, ambulo_options_default());
   double f = ambulo_result_objective(r);
   if (f > 1.0211) print_error("f = %.6f: %s\n", f, ambulo_result_ending(r));
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_OPTIMAL);
   assert_true(f <= 1.0211);
   ambulo_result_free(r);
   ambulo_problem_free(problem);
@@ -76,7 +77,7 @@ static void feasibility_alone_is_enough(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("fig5a_feasible");
   ambulo_result *r = solve(problem, ambulo_options_default());
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_OPTIMAL);
   assert_true(ambulo_result_objective(r) == 0.0);
   ambulo_result_free(r);
   ambulo_problem_free(problem);
@@ -95,7 +96,7 @@ static void cancelled_solve_returns_its_point(void **state) {
   options.progress = stop_at_second;
   options.user = &last;
   ambulo_result *r = solve(problem, options);
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_INTERRUPTED);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_INTERRUPTED);
   assert_int_equal(ambulo_result_iterations(r), 2);
   assert_close(ambulo_result_objective(r), last.objective, 1e-12);
   ambulo_result_free(r);
@@ -108,13 +109,13 @@ static void limits_end_the_solve(void **state) {
   ambulo_options options = ambulo_options_default();
   options.maximum_evaluations = 20;
   ambulo_result *r = solve(problem, options);
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_LIMIT_REACHED);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_LIMIT_REACHED);
   assert_in_range(ambulo_result_evaluations(r), 20, 30);
   ambulo_result_free(r);
   options = ambulo_options_default();
   options.time_limit = 1e-6;
   r = solve(problem, options);
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_LIMIT_REACHED);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_LIMIT_REACHED);
   ambulo_result_free(r);
   ambulo_problem_free(problem);
 }
@@ -158,7 +159,7 @@ static void impossible_problem_is_called_infeasible(void **state) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_result *r = NULL;
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, list, &r), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(r), AMBULO_INFEASIBLE);
+  assert_int_equal(verdict_at_nodes(r), AMBULO_INFEASIBLE);
   const ambulo_violation *worst = &ambulo_result_audit(r)->violation;
   assert_true(worst->worst > 0.1);
   int named = 0;
@@ -192,7 +193,7 @@ static void *work(void *data) {
   job *j = data;
   ambulo_problem *problem = NULL;
   char path[96];
-  (void)snprintf(path, sizeof path, "models/%s.yaml", j->name);
+  problem_path(j->name, path, sizeof path);
   if (ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem)) return NULL;
   ambulo_options options = ambulo_options_default();
   if (ambulo_solve(problem, &options, NULL, NULL, NULL, &j->result)) j->result = NULL;
@@ -202,8 +203,8 @@ static void *work(void *data) {
 
 static void threads_give_the_bits_of_serial_runs(void **state) {
   (void)state;
-  job serial[2] = {{"yardstick_12", NULL}, {"two_link_reach", NULL}};
-  job parallel[2] = {{"yardstick_12", NULL}, {"two_link_reach", NULL}};
+  job serial[2] = {{"yardstick_12", NULL}, {"support/two_link_reach", NULL}};
+  job parallel[2] = {{"yardstick_12", NULL}, {"support/two_link_reach", NULL}};
   pthread_t thread[2];
   for (int i = 0; i < 2; i++) (void)work(&serial[i]);
   for (int i = 0; i < 2; i++)
@@ -242,7 +243,7 @@ static void out_of_memory_is_survived(const char *name, long stride) {
 
 static void any_allocation_may_fail(void **state) {
   (void)state;
-  out_of_memory_is_survived("two_link_reach", 3);
+  out_of_memory_is_survived("support/two_link_reach", 3);
   out_of_memory_is_survived("yardstick_36", 41);
 }
 

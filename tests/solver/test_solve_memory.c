@@ -53,10 +53,10 @@ static double peak_of(const char *path, const char *override, double *problem_by
 static void predictions_hold(void **state) {
   (void)state;
   static const char *const cases[][2] = {{"tests/support/walk_rigid.yaml", NULL},
-                                         {"models/walk_without_reaction.yaml", NULL},
+                                         {"tests/support/walk_without_reaction.yaml", NULL},
                                          {"models/yardstick_12.yaml", NULL},
                                          {"models/yardstick_72.yaml", NULL},
-                                         {"models/walker_2d_step.yaml", "time.intervals=96"},
+                                         {"tests/support/walker_2d_step.yaml", "time.intervals=96"},
                                          {"tests/infeasible/step_too_long.yaml", NULL}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     ambulo_problem *problem = NULL;

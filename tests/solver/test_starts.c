@@ -2,6 +2,7 @@
 #include "solver/session.h"
 #include "ambulo/tools/load.h"
 #include "solver/result.h"
+#include "support/at_nodes.h"
 #include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 
@@ -31,7 +32,7 @@ static void a_cheaper_valley_is_gone_on_from(void **state) {
     assert_true(b == 0 ? s->basins[b].distance == 0.0 : s->basins[b].distance > 0.0);
   }
   assert_int_equal(found, s->solved);
-  assert_int_equal(eight->verdict, AMBULO_OPTIMAL);
+  assert_int_equal(verdict_at_nodes(eight), AMBULO_OPTIMAL);
   assert_true(eight->objective < 0.99 * one->objective);
   ambulo_result_free(one);
   ambulo_result_free(eight);
@@ -62,7 +63,7 @@ static void several_are_never_worse_than_one(void **state) {
 
 static void every_run_is_the_same(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("walker_2d_step");
+  ambulo_problem *problem = load_problem("support/walker_2d_step");
   ambulo_result *first = solve(problem, 6, NULL), *second = solve(problem, 6, NULL);
   const ambulo_starts *a = ambulo_result_starts(first), *b = ambulo_result_starts(second);
   assert_int_equal(a->basin_count, b->basin_count);
@@ -76,7 +77,7 @@ static void every_run_is_the_same(void **state) {
 /* where the solver's own start is the best, the result is that of one start, to the last bit */
 static void the_own_start_stays_what_it_is(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_problem *problem = load_problem("support/two_link_reach");
   ambulo_result *one = solve(problem, 1, NULL), *several = solve(problem, 4, NULL);
   assert_int_equal(ambulo_result_starts(several)->basins[0].first, 0);
   assert_memory_equal(one->x, several->x, (size_t)one->variables * sizeof *one->x);
@@ -127,7 +128,7 @@ static void a_stop_keeps_what_is_there(void **state) {
 
 static void nonsense_is_refused(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_problem *problem = load_problem("support/two_link_reach");
   ambulo_options options = ambulo_options_default();
   ambulo_result *result = NULL;
   static const int wrong[] = {0, -3, AMBULO_MOST_STARTS + 1};
@@ -142,7 +143,7 @@ static void nonsense_is_refused(void **state) {
 
 static void memory_runs_out(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_problem *problem = load_problem("support/two_link_reach");
   ambulo_options options = ambulo_options_default();
   options.starts = 2;
   for (long at = 0;; at += at < 60 ? 1 : 37) {

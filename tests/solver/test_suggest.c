@@ -107,7 +107,7 @@ static const miss misses[] = {
      "leave the motion that it follows by 0.15 m",
      {"constraints.tubes[0].coordinates.pelvis_tx=0.1515"},
      1},
-    {"models/two_link_reach.yaml",
+    {"tests/support/two_link_reach.yaml",
      {0},
      "final_state",
      "elbow",
@@ -117,7 +117,7 @@ static const miss misses[] = {
      "value of elbow",
      {"ends.final.elbow="},
      0},
-    {"models/two_link_reach.yaml",
+    {"tests/support/two_link_reach.yaml",
      {0},
      "initial_state",
      "elbow",
@@ -127,7 +127,7 @@ static const miss misses[] = {
      "rate of elbow",
      {"ends.initial_speed.elbow=5.72"},
      0},
-    {"models/two_link_reach.yaml",
+    {"tests/support/two_link_reach.yaml",
      {"ends.final_acceleration={elbow: 0}"},
      "final_state",
      "elbow",
@@ -172,7 +172,7 @@ static void a_sign_turns_the_partners_limit(void **state) {
 /* what a descent leaves of zero is zero; accelerations are not set */
 static void ends_are_set(void **state) {
   (void)state;
-  static const char file[] = "models/two_link_reach.yaml";
+  static const char file[] = "tests/support/two_link_reach.yaml";
   ambulo_problem *p = load(file, NULL, 0);
   miss m = {file,    {0}, "final_state",          "elbow",
             "value", 0.0, "final value of elbow", {"ends.final.elbow=0"},

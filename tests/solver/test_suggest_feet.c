@@ -192,7 +192,7 @@ static void spacing_counts_where_it_is_most_of_the_miss(void **state) {
                                          "move the foothold of heel_r"};
   const miss front = {.family = "foot_strike", .subject = "heel_r", .detail = "forward"};
   const miss back = {.family = "foot_strike", .subject = "toe_l", .detail = "forward"};
-  ambulo_problem *p = load("models/walker_2d_step.yaml", NULL, 0);
+  ambulo_problem *p = load("tests/support/walker_2d_step.yaml", NULL, 0);
   double *values = calloc((size_t)p->rows, sizeof *values);
   ambulo__remedy remedy = {.conflict = 0, .row = find_row(p, &front, 0), .value = values};
   remedy.single = 1;

@@ -1,5 +1,6 @@
 /* Terms of the caller at every scale: a solve ends where it ends with the built-in term. */
 #include "problem/nlp.h"
+#include "support/at_nodes.h"
 #include "support/planar_walker.h"
 #include "support/problem_fixture.h"
 
@@ -47,7 +48,7 @@ static ambulo_problem *step_with(const ambulo_model *model, const ambulo_term *t
 static double solve(const ambulo_problem *problem, const char *what, double factor) {
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  ambulo_verdict verdict = ambulo_result_verdict(result);
+  ambulo_verdict verdict = verdict_at_nodes(result);
   double objective = ambulo_result_objective(result) / factor;
   if (verdict != AMBULO_OPTIMAL)
     print_error("%s x %g: %s at %g, %s\n", what, factor, ambulo_verdict_name(verdict), objective,
@@ -145,7 +146,7 @@ static void no_optimum_at_any_scale(void **state) {
     fixture_open(&f, &definition);
     ambulo_result *result = NULL;
     assert_int_equal(ambulo_audit_point(f.problem, NULL, f.x, NULL, NULL, &result), AMBULO_OK);
-    assert_int_equal(ambulo_result_verdict(result), AMBULO_FEASIBLE);
+    assert_int_equal(verdict_at_nodes(result), AMBULO_FEASIBLE);
     if (i == 0) kkt = ambulo_result_audit(result)->kkt;
     assert_true(kkt > 0.1);
     assert_close(ambulo_result_audit(result)->kkt, kkt, 1e-6);

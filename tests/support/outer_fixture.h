@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PLANAR "models/walker_2d_step.yaml"
-#define REACH "models/two_link_reach.yaml"
+#define PLANAR "tests/support/walker_2d_step.yaml"
+#define REACH "tests/support/two_link_reach.yaml"
 
 #define AT_A_SPEED                                                                                 \
   "time.duration=null", "gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.54"

@@ -130,7 +130,7 @@ static void gradients_are_exact(void **state) {
   (void)state;
   enum { MOST = 40 };
   static const char *const walks[] = {"support/walk_rigid", "yardstick_12", "walk_tracking",
-                                      "walker_2d_step"};
+                                      "support/walker_2d_step"};
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events",
                                          "time.intervals=42", "trajectory.intervals=30"};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {

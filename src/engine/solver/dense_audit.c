@@ -274,16 +274,19 @@ static void append_group(const wording *w, int i, char *text) {
   append(text, AMBULO__DENSE_SUMMARY_SIZE, report->settings[i]);
 }
 
-static void write_summary(const wording *w, const char *verdict) {
+static void write_summary(const wording *w, ambulo_verdict verdict) {
+  const char *at_nodes = ambulo_verdict_name(ambulo__verdict_at_nodes(verdict));
   ambulo__dense_report *report = w->report;
   char *text = report->summary;
   if (report->view.samples == 0) {
     (void)snprintf(text, AMBULO__DENSE_SUMMARY_SIZE,
-                   "%s at the nodes; between them nothing is known: %s", verdict, report->reason);
+                   "%s at the nodes; between them nothing is known: %s", at_nodes, report->reason);
     return;
   }
   if (report->view.failing == 0) return;
-  (void)snprintf(text, AMBULO__DENSE_SUMMARY_SIZE, "%s at the nodes, not between them", verdict);
+  int far_off = !ambulo_verdict_is_solution(verdict);
+  (void)snprintf(text, AMBULO__DENSE_SUMMARY_SIZE, "%s%s", at_nodes,
+                 far_off ? " at the nodes only" : ", but a little off between the nodes");
   for (int i = 0; i < report->view.family_count; i++) {
     int said = 0;
     if (report->family[i].holds) continue;
@@ -308,7 +311,7 @@ void ambulo__dense_words(const ambulo_problem *p, ambulo_verdict verdict,
     f->advice = report->advice[i];
     write_line(&w, i);
   }
-  write_summary(&w, ambulo_verdict_name(verdict));
+  write_summary(&w, verdict);
 }
 
 /* ------------------------------------------------------------------ advice */
@@ -338,6 +341,10 @@ ambulo_status ambulo__dense_advise(const ambulo_problem *p, int in_time,
     if (status) return status;
     report->view.intervals = cure.intervals;
     report->view.spline_intervals = cure.spline_intervals;
+  }
+  if (report->view.failing > 0) {
+    double ratio = report->worst.entry[report->family_rule[0]].ratio;
+    result->verdict = ambulo__verdict_between_nodes(result->verdict, ratio);
   }
   ambulo__dense_words(p, result->verdict, forecast ? &cure : NULL, report);
   if (report->summary[0])

@@ -39,7 +39,7 @@ static int limited(int predicted, int now) {
 static int next_grid(const refinement *r, int *intervals, int *spline) {
   const ambulo_problem *p = current(r);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r->result);
-  if (!dense || !ambulo_verdict_is_solution(r->result->verdict)) return 0;
+  if (!dense || !ambulo_verdict_is_solution(ambulo__verdict_at_nodes(r->result->verdict))) return 0;
   int nodes = p->definition.intervals, knots = ambulo__basis_intervals(p->basis);
   *intervals = limited(dense->intervals, nodes);
   *spline = limited(dense->spline_intervals, knots);
@@ -73,7 +73,7 @@ static ambulo_status refine(refinement *r, int *done) {
   if (!status) status = ambulo_problem_transfer(current(r), r->result->x, finer, x);
   if (!status) status = solve(r, finer, x, &result, &messages);
   ambulo__free(&a, x);
-  int better = !status && ambulo_verdict_is_solution(result->verdict);
+  int better = !status && ambulo_verdict_is_solution(ambulo__verdict_at_nodes(result->verdict));
   *done = !better;
   if (better) {
     ambulo_problem *coarser = r->problem;

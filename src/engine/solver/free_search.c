@@ -113,7 +113,7 @@ static double width(const ambulo__outer *run, int i) {
 /* largest |dF/du| that a step within the bounds could follow, against F */
 static int is_stationary(const ambulo__outer *run) {
   const ambulo__outer_trial *t = &run->best;
-  if (ambulo_result_verdict(t->result) != AMBULO_OPTIMAL) return 0;
+  if (ambulo__verdict_at_nodes(ambulo_result_verdict(t->result)) != AMBULO_OPTIMAL) return 0;
   double most = 0.0;
   for (int i = 0; i < run->parameters.count; i++) {
     double down = -t->gradient[i] * width(run, i);

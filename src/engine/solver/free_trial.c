@@ -9,6 +9,7 @@
 #include "base/machine.h"
 #include "base/sized.h"
 #include "solver/free_search.h"
+#include "solver/result.h"
 
 #include <math.h>
 #include <string.h>
@@ -196,13 +197,14 @@ static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, cons
 }
 
 static int is_optimal(const ambulo__outer_trial *t) {
-  return t->result && ambulo_result_verdict(t->result) == AMBULO_OPTIMAL;
+  return t->result && ambulo__verdict_at_nodes(ambulo_result_verdict(t->result)) == AMBULO_OPTIMAL;
 }
 
 /* a run without an optimal motion yet continues from one that holds */
 static int counts(const ambulo__outer *run, const ambulo__outer_trial *t) {
   if (is_optimal(t)) return 1;
-  return !is_optimal(&run->best) && ambulo_result_verdict(t->result) == AMBULO_FEASIBLE;
+  return !is_optimal(&run->best) &&
+         ambulo__verdict_at_nodes(ambulo_result_verdict(t->result)) == AMBULO_FEASIBLE;
 }
 
 static ambulo_status solve(ambulo__outer *run, ambulo__outer_trial *t) {

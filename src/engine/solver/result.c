@@ -110,6 +110,10 @@ const ambulo_explanation *ambulo_result_explanation(const ambulo_result *r) {
 
 /* ----------------------------------------------------------------------- names */
 
+/* times its tolerance: a row further off between the nodes makes the motion one of its nodes only.
+ * No optimality at the nodes excuses it, nor does an objective at its lower bound. */
+static const double most_ratio = 10.0;
+
 typedef struct wording {
   const char *name, *text;
 } wording;
@@ -120,7 +124,7 @@ static const wording endings[] = {AMBULO_ENDING_LIST(WORDING)};
 #undef WORDING
 
 static wording wording_of_verdict(ambulo_verdict verdict) {
-  if (verdict < AMBULO_NOT_JUDGED || verdict > AMBULO_NOT_CONVERGED)
+  if (verdict < AMBULO_NOT_JUDGED || verdict > AMBULO_FEASIBLE_AT_NODES)
     return (wording){"unknown", "unknown verdict"};
   return verdicts[verdict];
 }
@@ -148,6 +152,17 @@ const char *ambulo__ending_text(ambulo_ending ending) {
 
 int ambulo_verdict_is_solution(ambulo_verdict verdict) {
   return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE;
+}
+
+ambulo_verdict ambulo__verdict_at_nodes(ambulo_verdict verdict) {
+  if (verdict == AMBULO_OPTIMAL_AT_NODES) return AMBULO_OPTIMAL;
+  return verdict == AMBULO_FEASIBLE_AT_NODES ? AMBULO_FEASIBLE : verdict;
+}
+
+ambulo_verdict ambulo__verdict_between_nodes(ambulo_verdict verdict, double ratio) {
+  if (ratio <= most_ratio) return verdict;
+  if (verdict == AMBULO_OPTIMAL) return AMBULO_OPTIMAL_AT_NODES;
+  return verdict == AMBULO_FEASIBLE ? AMBULO_FEASIBLE_AT_NODES : verdict;
 }
 
 double ambulo__relative(const ambulo_violation *v) {

@@ -53,6 +53,13 @@ const char *ambulo__ending_text(ambulo_ending ending);
 ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_options *options,
                                   ambulo_ending ending);
 
+/* What the nodes alone say: that of optimal_at_nodes is optimal. */
+ambulo_verdict ambulo__verdict_at_nodes(ambulo_verdict verdict);
+
+/* The verdict of the whole motion; `ratio`: the worst row between the nodes by its tolerance, not
+ * a number where it is not finite. */
+ambulo_verdict ambulo__verdict_between_nodes(ambulo_verdict verdict, double ratio);
+
 /* A method that gave up where values or derivatives were not finite failed for that reason. */
 void ambulo__ending_of_faults(ambulo__run *run);
 

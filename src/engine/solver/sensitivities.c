@@ -1,5 +1,6 @@
 /* solver/sensitivities.c - ambulo_sensitivities: the numbers of a problem at a result, as a person
  * says them: "1 cm more step length raises the objective by 0.8 %". */
+#include "solver/result.h"
 #include "solver/sensitivity.h"
 
 #include <math.h>
@@ -136,7 +137,7 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
 
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
-  if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+  if (ambulo__verdict_at_nodes(ambulo_result_verdict(result)) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";
 }

@@ -7,7 +7,7 @@ import { Charts } from "./charts.js";
 import { failure, panels } from "./panels.js";
 import { Stage, hasWebGL } from "./stage.js";
 import { Study, tone } from "./study.js";
-import { taskWords, verdictOf } from "./words.js";
+import { taskWords, verdictOf, worstOf } from "./words.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
@@ -344,8 +344,8 @@ function begin() {
   setView(hash.get("view") ?? "free");
   const { summary } = page.results[page.main], scene = sceneOf(page.results[page.main]);
   if (hash.has("t")) setTime(Math.min(Math.max(Number(hash.get("t")) || 0, 0), scene.duration));
-  else if (verdictOf(summary)[0] === "bad" && summary.audit?.violation?.family)
-    setTime(Math.min(Math.max(summary.audit.violation.time ?? 0, 0), scene.duration));
+  else if (verdictOf(summary)[0] === "bad" && worstOf(summary)?.family)
+    setTime(Math.min(Math.max(worstOf(summary).time ?? 0, 0), scene.duration));
   else if (!calm.matches) play(true);
 }
 begin();

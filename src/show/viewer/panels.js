@@ -2,7 +2,7 @@
 import { el, seconds, short } from "./dom.js";
 import { Convergence, wayWords } from "./convergence.js";
 import { spoken } from "./decode.js";
-import { amount, familyWords, rowWords, termWords, verdictOf, violationWords } from "./words.js";
+import { amount, familyWords, rowWords, termWords, verdictOf, violationWords, worstOf } from "./words.js";
 
 const percent = (x) => `${short(100 * x, 2)} %`;
 
@@ -20,7 +20,7 @@ function section(title, open, ...children) {
 export function failure(summary, scene, onTime) {
   const [tone, word, meaning] = verdictOf(summary);
   if (tone !== "bad") return null;
-  const worst = summary.audit?.violation;
+  const worst = worstOf(summary);
   const lines = summary.explanation?.lines ?? [];
   const suggestion = summary.explanation?.suggestion;
   const box = el("section", { class: "failure", role: "alert", "aria-label": "What failed" },

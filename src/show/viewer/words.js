@@ -7,6 +7,12 @@ export const verdicts = {
     "Every rule holds, and no small change of the motion costs less."],
   feasible: ["good", "Holds every rule",
     "Every rule holds. That no small change of the motion costs less was not shown."],
+  optimal_at_nodes: ["bad", "Solved at the nodes only",
+    "Every rule holds at the time nodes, and between them one is broken by more than ten times its " +
+    "tolerance. No body moves like this between the nodes; finer grids or the settings below help."],
+  feasible_at_nodes: ["bad", "Holds at the nodes only",
+    "Every rule holds at the time nodes, and between them one is broken by more than ten times its " +
+    "tolerance. No body moves like this between the nodes; finer grids or the settings below help."],
   infeasible: ["bad", "No solution",
     "This motion breaks at least one of the rules of the problem. It is shown because it comes " +
     "near; its numbers are no prediction."],
@@ -22,6 +28,10 @@ export const verdicts = {
 };
 export const verdictOf = (summary) => verdicts[summary.verdict] ??
   ["bad", spoken(summary.verdict ?? "no verdict", false), ""];
+
+// the row that makes the verdict what it is, at the nodes or between them
+export const worstOf = (summary) => summary.verdict?.endsWith("_at_nodes")
+  ? summary.audit?.dense_violation : summary.audit?.violation;
 
 const families = {
   ground_penetration: "a foot and the ground's height",
