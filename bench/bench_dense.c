@@ -36,7 +36,8 @@ static int solve(const char *name, const char *const *overrides, int count, solv
   if (ambulo_problem_load(path, overrides, count, NULL, NULL, &s->problem)) return 0;
   if (ambulo_solve(s->problem, NULL, NULL, NULL, NULL, &s->result)) return 0;
   ambulo_verdict verdict = ambulo_result_verdict(s->result);
-  return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE;
+  return ambulo_verdict_is_solution(verdict) || verdict == AMBULO_OPTIMAL_AT_NODES ||
+         verdict == AMBULO_FEASIBLE_AT_NODES;
 }
 
 static const ambulo_dense_family *find(const ambulo_result *result, const ambulo_violation *like) {

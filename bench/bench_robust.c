@@ -40,7 +40,8 @@ static ambulo_problem *load(const char *file, const char *const *overrides, int 
 }
 
 static int solved(ambulo_verdict verdict) {
-  return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE;
+  return ambulo_verdict_is_solution(verdict) || verdict == AMBULO_OPTIMAL_AT_NODES ||
+         verdict == AMBULO_FEASIBLE_AT_NODES;
 }
 
 static void random_starts(void) {

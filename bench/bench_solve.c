@@ -43,7 +43,8 @@ static double solve(bench_table *table, const char *name, const char *path,
     double seconds = process_seconds() - start;
     if (best < 0 || seconds < best) best = seconds;
   }
-  if (!result || !ambulo_verdict_is_solution(ambulo_result_verdict(result))) {
+  ambulo_verdict verdict = result ? ambulo_result_verdict(result) : AMBULO_NOT_JUDGED;
+  if (!ambulo_verdict_is_solution(verdict) && verdict != AMBULO_OPTIMAL_AT_NODES) {
     printf("%-44s %s after %.3f s, violation %.1e\n", name,
            result ? ambulo_verdict_name(ambulo_result_verdict(result)) : "failed", best,
            result ? ambulo_result_audit(result)->violation.worst : 0.0);

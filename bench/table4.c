@@ -75,7 +75,9 @@ static int report_solves(bench_table *table) {
     for (int g = 0; g < grids; g++) {
       double seconds;
       ambulo_result *result = solve(g, b, &seconds);
-      int valid = ambulo_verdict_is_solution(ambulo_result_verdict(result));
+      ambulo_verdict verdict = ambulo_result_verdict(result);
+      int valid = ambulo_verdict_is_solution(verdict) || verdict == AMBULO_OPTIMAL_AT_NODES ||
+                  verdict == AMBULO_FEASIBLE_AT_NODES;
       printf("%-20s %3d %-10s %11.4g %10.1e %5d %6d %9d %9.3f %8.0f  %.0f x\n", basis_name[b],
              intervals[g], ambulo_verdict_name(ambulo_result_verdict(result)),
              ambulo_result_objective(result), ambulo_result_audit(result)->violation.worst,

@@ -99,7 +99,7 @@ static void test_between_nodes(void **state) {
                                       "\"family\": \"slip\"",
                                       "\"tolerance\": 0.001",
                                       "\"row\": \"",
-                                      "feasible at the nodes, not ",
+                                      "feasible at the nodes only; ",
                                       "\"reason\": \"\"",
                                       "\"advice\": \"",
                                       "\"settings\": \""};

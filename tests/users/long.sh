@@ -61,7 +61,7 @@ has() { # MODULE WHAT
   return 1
 }
 optimal() { grep -q '"verdict": "optimal"' "$1/summary.json"; }
-between_too() { ! grep -q 'not between' "$1"; }
+between_too() { ! grep -q 'nodes only\|off between the nodes' "$1"; }
 problem_of() { # NAME FILE: the problem NAME.yaml that the tutorial writes
   sed -n "/^cat >$1.yaml <</,/^END\$/p" "$top/docs/tutorial-import.md" | sed '1d; $d' >"$2"
 }
@@ -170,7 +170,7 @@ a_robot_walks() { # URDF PROBLEM
   if between_too said; then
     echo "$(basename "$1"): optimal, between the nodes too${finer:+, with $finer}"
   else
-    echo "$(basename "$1"): optimal at the nodes, not between them"
+    echo "$(basename "$1"): optimal, but not between the nodes"
   fi
   ! has pinocchio 'the trajectory in Pinocchio' ||
     counted "$python" "$here/replay.py" "$1" biped.yaml trajectory/motion.csv
