@@ -139,7 +139,7 @@ def report(results):
         if row["state"] != "optimal":
             kkt = float(row["audit.kkt"] or "nan")
             print("%s, %s iterations, KKT %.1e: %s" % (row["state"], row["iterations"], kkt, about(row)))
-        if row["state"] not in ("optimal", "feasible"):
+        if row["state"] not in ("optimal", "feasible", "optimal_at_nodes", "feasible_at_nodes"):
             continue
         for family in summaries[row["id"]]["between_nodes"]["families"]:
             if not family["holds"]:
