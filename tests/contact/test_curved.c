@@ -315,6 +315,83 @@ static int test_spin_tests(void) {
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
+/* The cone of friction: what it limits, its slopes, and its curvature, tip included. */
+
+enum { TEST_CONE_CHANNELS = 3 };
+
+static ambulo__cone random_cone(random_source *random, double *y) {
+  ambulo__cone cone = {
+      .friction = random_between(random, 0.1, 1.0), .smoothing = 1e-3, .weight = 700.0, .force = 0};
+  double size = 0.0;
+  for (int i = 0; i < 3; i++) {
+    cone.up[i] = random_between(random, -1.0, 1.0);
+    size += cone.up[i] * cone.up[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    cone.up[i] /= sqrt(size);
+    y[i] = random_between(random, -500.0, 500.0);
+  }
+  return cone;
+}
+
+static void the_resultant_is_limited(void **state) {
+  (void)state;
+  const ambulo__cone cone = {
+      .up = {0.0, 1.0, 0.0}, .friction = 0.5, .smoothing = 1e-9, .weight = 100.0, .force = 0};
+  const double held[3] = {30.0, 100.0, 40.0}, slips[3] = {-48.0, 100.0, 36.0}, none[3] = {0.0};
+  assert_close(ambulo__cone_value(&cone, held, 1, NULL), 0.0, 1e-8);
+  assert_close(ambulo__cone_value(&cone, slips, 1, NULL), -0.1, 1e-8);
+  assert_close(ambulo__cone_value(&cone, none, 1, NULL), 0.0, 1e-15);
+}
+
+static void cone_slopes_are_those_of_the_value(void **state) {
+  (void)state;
+  random_source random = {29};
+  for (int trial = 0; trial < 100; trial++) {
+    double y[TEST_CONE_CHANNELS], slope[TEST_CONE_CHANNELS] = {0.0};
+    ambulo__curved row = {.form = AMBULO__CURVED_CONE, .of.cone = random_cone(&random, y)};
+    for (int c = 0; trial % 5 == 0 && c < TEST_CONE_CHANNELS; c++) y[c] *= 1e-3; /* at the tip */
+    int channel[AMBULO__CURVED_CHANNELS];
+    assert_int_equal(ambulo__curved_channels(&row, channel), 3);
+    (void)ambulo__curved_value(&row, y, 1, slope);
+    for (int c = 0; c < TEST_CONE_CHANNELS; c++)
+      assert_close(slope[c], slope_by_difference(&row, y, c, 1e-4), 1e-9);
+  }
+}
+
+/* differences of slopes; without drag the two rows span what is level */
+static void curvature_is_the_change_of_slopes(void **state) {
+  (void)state;
+  random_source random = {31};
+  for (int trial = 0; trial < 100; trial++) {
+    double y[TEST_CONE_CHANNELS], rows[2][3];
+    ambulo__cone cone = random_cone(&random, y);
+    for (int c = 0; trial % 5 == 0 && c < TEST_CONE_CHANNELS; c++) y[c] *= 1e-3;
+    for (int c = 0; trial % 10 == 0 && c < TEST_CONE_CHANNELS; c++) y[c] = 9.0 * cone.up[c];
+    if (trial == 0) memset(y, 0, sizeof y);
+    ambulo__cone_curvature(&cone, y, 1, rows);
+    for (int c = 0; c < TEST_CONE_CHANNELS; c++) {
+      double more[3] = {0.0}, less[3] = {0.0}, here = y[c], h = 1e-3;
+      y[c] = here + h;
+      (void)ambulo__cone_value(&cone, y, 1, more);
+      y[c] = here - h;
+      (void)ambulo__cone_value(&cone, y, 1, less);
+      y[c] = here;
+      for (int k = 0; k < 3; k++) {
+        double bend = rows[0][c] * rows[0][k] + rows[1][c] * rows[1][k];
+        assert_close(bend, -(more[k] - less[k]) / (2.0 * h), 1e-8);
+      }
+    }
+  }
+}
+
+static int test_cone_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_resultant_is_limited),
+                                     cmocka_unit_test(cone_slopes_are_those_of_the_value),
+                                     cmocka_unit_test(curvature_is_the_change_of_slopes)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
 int main(void) {
-  return test_arc_tests() + test_apart_tests() + test_spin_tests();
+  return test_cone_tests() + test_arc_tests() + test_apart_tests() + test_spin_tests();
 }

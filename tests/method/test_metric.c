@@ -120,6 +120,78 @@ static void curvature_of_a_walk_too(void **state) {
   compare_shipped("support/walker_2d_step");
 }
 
+/* -lambda d2v along d, of all cones at once: the change of their slopes by the force where that
+ * moves by dF = (F(x + h d) - F(x - h d)) / 2 h, without what bends the force itself */
+static double cones_along(ambulo_workspace *w, const ambulo__sparse_rows *rows,
+                          const double *lambda, const double *x, const double *d) {
+  const ambulo_problem *p = w->problem;
+  const int channels = w->channel_count, all = p->nodes * channels;
+  const double h = 1e-5;
+  double *y = calloc((size_t)p->variables, sizeof *y), sum = 0.0;
+  double *force = calloc((size_t)(3 * all), sizeof *force);
+  for (int side = 0; side < 3; side++) {
+    for (int j = 0; j < p->variables; j++) y[j] = x[j] + (side - 1) * h * d[j];
+    assert_int_equal(ambulo__evaluate(w, y), AMBULO_OK);
+    for (int i = 0; i < all; i++)
+      force[side * all + i] = w->channel[ambulo__lane_index(i / channels, channels, i % channels)];
+  }
+  for (int i = 0; i < rows->count; i++) {
+    const ambulo__table_row *row = &p->table.rows[rows->row[i]];
+    const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
+    if (!curved || curved->form != AMBULO__CURVED_CONE) continue;
+    for (int side = -1; side <= 1; side += 2) {
+      double at[3], by[3] = {0.0}, move[3];
+      ambulo__cone cone = curved->of.cone;
+      int first = row->node * channels + cone.force;
+      for (int k = 0; k < 3; k++) {
+        move[k] = (force[2 * all + first + k] - force[first + k]) / (2.0 * h);
+        at[k] = force[all + first + k] + side * 1e-4 * move[k];
+      }
+      cone.force = 0;
+      (void)ambulo__cone_value(&cone, at, 1, by);
+      for (int k = 0; k < 3; k++) sum += lambda[i] * rows->scale[i] * side * by[k] * move[k] / 2e-4;
+    }
+  }
+  free(force);
+  free(y);
+  return sum;
+}
+
+/* the Lagrangian bends where a cone has a force */
+static void cones_bend_the_metric(void **state) {
+  (void)state;
+  engine_fixture f;
+  unsigned seed = 8;
+  engine_open(&f, "walk");
+  const ambulo__sparse_rows *rows = &f.engine->setup->rows->inequality;
+  ambulo_workspace *w = f.engine->workspace;
+  ambulo__metric *metric = &f.engine->linearized.metric;
+  ambulo__band *h = &f.engine->linearized.base;
+  double *lambda = calloc((size_t)rows->count, sizeof *lambda);
+  double *d = calloc((size_t)f.n, sizeof *d), *hd = calloc((size_t)f.n, sizeof *hd);
+  for (int i = 0; i < rows->count; i++) lambda[i] = fmax(0.0, random_number(&seed));
+  for (int j = 0; j < f.n; j++) f.x[j] = 0.1 * random_number(&seed);
+  for (int trial = 0; trial < 3; trial++) {
+    double got = 0.0;
+    for (int j = 0; j < f.n; j++) d[j] = 1e-3 * random_number(&seed);
+    double want = cones_along(w, rows, lambda, f.x, d);
+    assert_int_equal(ambulo__evaluate_jacobian(w, f.x), AMBULO_OK);
+    ambulo__metric_fill(metric, w, 1.0, h);
+    ambulo__band_multiply(h, d, hd);
+    for (int j = 0; j < f.n; j++) got -= d[j] * hd[j];
+    ambulo__metric_add_cones(metric, w, rows, lambda, h);
+    ambulo__band_multiply(h, d, hd);
+    for (int j = 0; j < f.n; j++) got += d[j] * hd[j];
+    assert_true(want > 0.0);
+    if (fabs(got / want - 1.0) > 1e-5) print_error("along %d: %g, expected %g\n", trial, got, want);
+    assert_close(got / want, 1.0, 1e-5);
+  }
+  free(lambda);
+  free(d);
+  free(hd);
+  engine_close(&f);
+}
+
 /* ---------------------------------------------------------------------- scale */
 
 /* qd_0 */
@@ -301,6 +373,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(curvature_is_that_of_the_residuals),
                                      cmocka_unit_test(every_residual_has_room),
                                      cmocka_unit_test(curvature_of_a_walk_too),
+                                     cmocka_unit_test(cones_bend_the_metric),
                                      cmocka_unit_test(scale_follows_from_half_a_wave),
                                      cmocka_unit_test(the_stand_in_stands_in_for_nothing_else),
                                      cmocka_unit_test(scale_takes_the_unit_away),

@@ -114,3 +114,40 @@ double ambulo__spin_value(const ambulo__spin *spin, const double *y, int stride,
   }
   return spin->bound + factor * sum;
 }
+
+/* N in *normal, T */
+static void split(const ambulo__cone *cone, const double *y, int stride, double *normal,
+                  double level_part[3]) {
+  *normal = dot(cone->up, y, cone->force, stride) / cone->weight;
+  for (int i = 0; i < 3; i++)
+    level_part[i] = y[(cone->force + i) * stride] / cone->weight - *normal * cone->up[i];
+}
+
+/* (W.9) mu N + s - sqrt(|T|^2 + s^2) */
+double ambulo__cone_value(const ambulo__cone *cone, const double *y, int stride, double *slope) {
+  double normal, drag[3], s = cone->smoothing;
+  split(cone, y, stride, &normal, drag);
+  double length = sqrt(ambulo__dot(drag, drag) + s * s);
+  add(slope, cone->force, cone->up, cone->friction / cone->weight);
+  add(slope, cone->force, drag, -1.0 / (length * cone->weight));
+  return cone->friction * normal + s - length;
+}
+
+void ambulo__cone_curvature(const ambulo__cone *cone, const double *y, int stride,
+                            double rows[2][3]) {
+  double normal, drag[3], s = cone->smoothing;
+  split(cone, y, stride, &normal, drag);
+  double square = ambulo__dot(drag, drag), length = sqrt(square + s * s);
+  double across = 1.0 / (sqrt(length) * cone->weight), along = across * s / length;
+  if (square <= 1e-12 * s * s) { /* any level direction: both are alike */
+    int least = fabs(cone->up[0]) < fabs(cone->up[1]) ? 0 : 1;
+    for (int i = 0; i < 3; i++) drag[i] = (i == least) - cone->up[least] * cone->up[i];
+  }
+  double norm = sqrt(ambulo__dot(drag, drag));
+  for (int i = 0; i < 3; i++) drag[i] /= norm;
+  cross(cone->up, drag, rows[0]);
+  for (int i = 0; i < 3; i++) {
+    rows[0][i] *= across;
+    rows[1][i] = along * drag[i];
+  }
+}

@@ -204,13 +204,50 @@ typedef struct ambulo__spin {
  * slope [channels] unless NULL. */
 double ambulo__spin_value(const ambulo__spin *spin, const double *y, int stride, double *slope);
 
+/* the cone of dry friction: a row that is not linear.
+ *
+ * Of the force F of a contact, with n the normal of its surface, W = m g, mu the friction and s a
+ * small smoothing, all in body weights:
+ *
+ *     N = n . F / W,   T = F / W - N n
+ *     c = mu N + s - sqrt(|T|^2 + s^2) >= 0
+ *
+ * The resultant of both directions is limited. The root has continuous slopes where nothing is
+ * dragged (T = 0), and c = 0 without force. As sqrt(|T|^2 + s^2) - s <= |T|, c >= 0 allows |T| to
+ * exceed mu N by less than s. With e = T / sqrt(|T|^2 + s^2), which is level,
+ *
+ *     dc/dF = (mu n - e) / W
+ *
+ * and with L = sqrt(|T|^2 + s^2), a unit vector t along T, and p = n x t, both level,
+ *
+ *     -d2c/dF2 = (p p' + (s / L)^2 t t') / (L W^2)
+ *
+ * c is concave; near the tip its curvature is most of what a Lagrangian has.
+ */
+
+typedef struct ambulo__cone {
+  double up[3];     /* n */
+  double friction;  /* mu */
+  double smoothing; /* s > 0 */
+  double weight;    /* W, N */
+  int force;        /* first channel of F */
+} ambulo__cone;
+
+/* The row's value at a node from its channels, channel k at y[k * stride]. Its slopes are added to
+ * slope [channels] unless NULL. */
+double ambulo__cone_value(const ambulo__cone *cone, const double *y, int stride, double *slope);
+/* Two rows r of three numbers, by F: the sum of r r' is -d2c/dF2. */
+void ambulo__cone_curvature(const ambulo__cone *cone, const double *y, int stride,
+                            double rows[2][3]);
+
 enum { AMBULO__CURVED_CHANNELS = AMBULO__SOLID_CHANNELS };
 
 typedef enum ambulo__curved_form {
   AMBULO__CURVED_ARC,   /* of an arc that rolls */
   AMBULO__CURVED_APART, /* of a point and a segment */
   AMBULO__CURVED_SOLID, /* of a capsule and another, or an obstacle */
-  AMBULO__CURVED_SPIN   /* of the root wrench about the centre of mass */
+  AMBULO__CURVED_SPIN,  /* of the root wrench about the centre of mass */
+  AMBULO__CURVED_CONE   /* of the force of a contact */
 } ambulo__curved_form;
 
 typedef struct ambulo__curved {
@@ -220,6 +257,7 @@ typedef struct ambulo__curved {
     ambulo__apart apart;
     ambulo__solid solid;
     ambulo__spin spin;
+    ambulo__cone cone;
   } of;
 } ambulo__curved;
 
@@ -234,6 +272,8 @@ static inline double ambulo__curved_value(const ambulo__curved *row, const doubl
     return ambulo__solid_value(&row->of.solid, y, stride, slope);
   case AMBULO__CURVED_SPIN:
     return ambulo__spin_value(&row->of.spin, y, stride, slope);
+  case AMBULO__CURVED_CONE:
+    return ambulo__cone_value(&row->of.cone, y, stride, slope);
   case AMBULO__CURVED_APART:
     break;
   }
@@ -244,6 +284,9 @@ static inline int ambulo__curved_channels(const ambulo__curved *row,
                                           int channel[AMBULO__CURVED_CHANNELS]) {
   if (row->form == AMBULO__CURVED_ARC) return ambulo__arc_channels(&row->of.arc, channel);
   if (row->form == AMBULO__CURVED_SOLID) return ambulo__solid_channels(&row->of.solid, channel);
+  int is_cone = row->form == AMBULO__CURVED_CONE;
+  for (int i = 0; is_cone && i < 3; i++) channel[i] = row->of.cone.force + i;
+  if (is_cone) return 3;
   const ambulo__apart *apart = &row->of.apart;
   const ambulo__spin *spin = &row->of.spin;
   int is_spin = row->form == AMBULO__CURVED_SPIN;

@@ -2,11 +2,12 @@
  * ("normal_force", "friction", "pressure", "free_moment").
  *
  * Of a loaded contact: force f and moment m about its centre p, axes f, l, n of its surface, its
- * region of pressure [back, front] x [-side, side] about p, W = m g. All rows are linear in the
- * channels.
+ * region of pressure [back, front] x [-side, side] about p, W = m g. All rows but the cone are
+ * linear in the channels.
  *
  *     0 <= n.f / W <= most              body weights; most: how fast it may be loaded
- *     mu n.f -+ e.f >= 0,  e = f, l     body weights
+ *     |f - (n.f) n| <= mu n.f           body weights: one smooth cone (contact/curved.h), of planar
+ *                                       models the two rows mu n.f -+ f.f >= 0
  *     back n.f <= -l.m <= front n.f     m, divided by W: -l.m / n.f is how far the centre of
  *     -side n.f <= f.m <= side n.f      pressure is ahead of p, f.m / n.f how far to the left;
  *                                       all with an allowance a of 2e-4 m at 1.75 m
@@ -32,6 +33,9 @@
  * (bench/random_walks.py) 11 are only feasible with half of it */
 static const double allowance = 2e-4;
 
+/* body weights: what the cone's tip is rounded by, and the most by which a force may exceed it */
+static const double cone_smoothing = 5e-6;
+
 typedef struct one {
   const ambulo__gait_context *context;
   int node, planar;
@@ -55,15 +59,26 @@ static void normal_rows(const one *c) {
           0.0, c->load.most);
 }
 
-static void friction_rows(const one *c, const double direction[3], const char *lower,
-                          const char *upper) {
+static void cone_row(const one *c) {
+  const double *up = c->load.frame.up;
+  ambulo__cone cone = {.up = {up[0], up[1], up[2]},
+                       .friction = c->context->definition->ground_reaction.friction,
+                       .smoothing = cone_smoothing,
+                       .weight = c->weight,
+                       .force = c->force};
+  ambulo__row_cone(c->table, AMBULO__KIND_FRICTION, c->subject, "slips", c->node,
+                   c->context->times[c->node], &cone);
+}
+
+/* of a planar model, whose cone is two half planes */
+static void friction_rows(const one *c) {
   double mu = c->context->definition->ground_reaction.friction;
   for (int sign = -1; sign <= 1; sign += 2) {
     ambulo__linear form = {.count = 0};
     ambulo__linear_add(&form, c->force, c->load.frame.up, mu / c->weight);
-    ambulo__linear_add(&form, c->force, direction, -sign / c->weight);
-    bounded(c, AMBULO__KIND_FRICTION, sign > 0 ? upper : lower, upper, AMBULO__BODY_WEIGHTS, &form,
-            0.0, INFINITY);
+    ambulo__linear_add(&form, c->force, c->load.frame.forward, -sign / c->weight);
+    bounded(c, AMBULO__KIND_FRICTION, sign > 0 ? "slips forward" : "slips backward", "",
+            AMBULO__BODY_WEIGHTS, &form, 0.0, INFINITY);
   }
 }
 
@@ -116,8 +131,10 @@ static void contact_rows(const one *c) {
   const ambulo_ground_reaction *r = &c->context->definition->ground_reaction;
   normal_rows(c);
   if (r->friction >= 0.0) {
-    friction_rows(c, c->load.frame.forward, "backward", "forward");
-    if (!c->planar) friction_rows(c, c->load.frame.left, "to the right", "to the left");
+    if (c->planar)
+      friction_rows(c);
+    else
+      cone_row(c);
   }
   if (r->pressure) pressure_rows(c);
   if (isnan(r->free_moment) || c->planar) return;

@@ -198,8 +198,9 @@ static void append_curved(ambulo__row_table *table, ambulo__row_kind kind, const
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  ambulo__row_begin(table, kind, subject, detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node, time,
-                    0.0);
+  ambulo__measure measure =
+      row->form == AMBULO__CURVED_CONE ? AMBULO__BODY_WEIGHTS : AMBULO__METRES;
+  ambulo__row_begin(table, kind, subject, detail, measure, AMBULO_NOT_NEGATIVE, node, time, 0.0);
   if (table->status) return;
   table->curved[table->curved_count] = *row;
   table->rows[table->row_count - 1].user = table->curved_count++;
@@ -226,6 +227,12 @@ void ambulo__row_solid(ambulo__row_table *table, ambulo__row_kind kind, const ch
 void ambulo__row_spin(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                       const char *detail, int node, double time, const ambulo__spin *spin) {
   ambulo__curved row = {.form = AMBULO__CURVED_SPIN, .of.spin = *spin};
+  append_curved(table, kind, subject, detail, node, time, &row);
+}
+
+void ambulo__row_cone(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                      const char *detail, int node, double time, const ambulo__cone *cone) {
+  ambulo__curved row = {.form = AMBULO__CURVED_CONE, .of.cone = *cone};
   append_curved(table, kind, subject, detail, node, time, &row);
 }
 

@@ -239,7 +239,8 @@ void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const ch
 void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int index, int node,
                       double time);
 /* Adds a row at a node, not negative, in m, that is a function of an arc; of a point and a segment;
- * of a capsule and what it keeps clear of; of the root wrench. */
+ * of a capsule and what it keeps clear of; of the root wrench; in body weights, of a contact's
+ * force. */
 void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                      const char *detail, int node, double time, const ambulo__arc *arc);
 void ambulo__row_apart(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
@@ -248,6 +249,8 @@ void ambulo__row_solid(ambulo__row_table *table, ambulo__row_kind kind, const ch
                        const char *detail, int node, double time, const ambulo__solid *solid);
 void ambulo__row_spin(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                       const char *detail, int node, double time, const ambulo__spin *spin);
+void ambulo__row_cone(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                      const char *detail, int node, double time, const ambulo__cone *cone);
 /* What a curved row is a function of; NULL: the row is linear, or the caller's. */
 static inline const ambulo__curved *ambulo__row_curved_of(const ambulo__row_table *table,
                                                           const ambulo__table_row *row) {

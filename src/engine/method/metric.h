@@ -11,6 +11,7 @@
 #define AMBULO_METHOD_METRIC_H
 
 #include "linear/band.h"
+#include "linear/sparse_rows.h"
 #include "problem/nlp.h"
 
 /* Slopes of channels at a node and the next, each found once.
@@ -88,6 +89,11 @@ ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool 
 int ambulo__metric_diagonals(const ambulo_problem *problem);
 
 /* H0 at the point of the workspace (ambulo__evaluate_jacobian), without mu. */
+/* h += what the cones of friction (contact/curved.h) bend the Lagrangian by, of rows with the
+ * multipliers lambda [rows->count], at the point of the last fill. */
+void ambulo__metric_add_cones(ambulo__metric *metric, const ambulo_workspace *workspace,
+                              const ambulo__sparse_rows *rows, const double *lambda,
+                              ambulo__band *h);
 void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
                          ambulo__band *h);
 

@@ -134,7 +134,7 @@ void ambulo__suggest(const ambulo_problem *problem, const ambulo__remedy *remedy
  *   footholds     missed by c: the spacing that can be reached while two feet are down is
  *                 (place_b + c_b) - (place_a + c_a)
  *   tolerances    |y| <= w missed by g: w + g
- *   friction      mu n - |t| = -g, and mu n + |t| of its partner row: mu (1 + 2 g / (sum of both))
+ *   friction      mu N - |T| = -g, and N of the contact's own row: mu + g / N
  *
  * These numbers suffice for the rows of that point, which holds all the others within
  * AMBULO__HOLDS. For that, new values leave room for twice as much, at least for a hundredth of g

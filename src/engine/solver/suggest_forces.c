@@ -76,18 +76,24 @@ static void normal_force(const ambulo__advice *a) {
   }
 }
 
-/* the friction that every pair of rows, mu n - t and mu n + t, asks for at the point */
+/* N of the contact that a row of friction is about, body weights: its row "pulls" comes before */
+static double normal_of(const ambulo__advice *a, int row) {
+  const ambulo__table_row *rows = a->problem->table.rows, *cone = &rows[row];
+  for (int r = row - 1; r >= 0 && rows[r].node == cone->node; r--) {
+    if (rows[r].kind == AMBULO__KIND_NORMAL_FORCE && !strcmp(rows[r].detail, "pulls") &&
+        !strcmp(rows[r].subject, cone->subject) && rows[r].before == cone->before)
+      return a->values[r];
+  }
+  return 0.0;
+}
+
+/* the friction that all contacts ask for at the point: mu N - |T| = c of each */
 static double friction_needed(const ambulo__advice *a, double mu) {
-  const ambulo_problem *p = a->problem;
   double needed = mu;
-  for (int r = 0; r + 1 < p->rows; r++) {
-    const ambulo__table_row *one = &p->table.rows[r], *next = one + 1;
-    int begins = !strcmp(one->detail, "backward") || !strcmp(one->detail, "to the right");
-    int pair = begins && one->kind == AMBULO__KIND_FRICTION &&
-               next->kind == AMBULO__KIND_FRICTION && one->node == next->node &&
-               !strcmp(one->subject, next->subject);
-    double least = fmin(a->values[r], a->values[r + 1]), sum = a->values[r] + a->values[r + 1];
-    if (pair && least < 0.0 && sum > 0.0) needed = fmax(needed, mu * (1.0 - 2.02 * least / sum));
+  for (int r = 0; r < a->problem->rows; r++) {
+    if (a->problem->table.rows[r].kind != AMBULO__KIND_FRICTION || a->values[r] >= 0.0) continue;
+    double normal = normal_of(a, r);
+    if (normal > 0.0) needed = fmax(needed, mu - 1.01 * a->values[r] / normal);
   }
   return needed;
 }
@@ -102,10 +108,11 @@ static void friction(const ambulo__advice *a) {
                        mu, needed, a->row->subject, a->row->detail, a->give, a->row->time);
     ambulo__advice_set(a, "ground_reaction.friction=%.6g", needed);
   } else {
-    ambulo__advice_say(a,
-                       "%s pushes %s by %.4g body weights more than friction holds at t = %.4g s: "
-                       "give the motion more time",
-                       a->row->subject, a->row->detail, a->give, a->row->time);
+    ambulo__advice_say(
+        a,
+        "%s drags with %.4g body weights more than friction holds at t = %.4g s: give "
+        "the motion more time",
+        a->row->subject, a->give, a->row->time);
   }
 }
 
