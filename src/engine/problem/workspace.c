@@ -130,10 +130,11 @@ enum { MOST_ROWS = 50000000 };
 static const double terms_of_a_row = 3.5; /* of walks; 1 of limits, 6 of centres of pressure */
 static const double growth = 1.5;         /* arrays that double are filled to 3/4 on average */
 
-/* of capsules and obstacles */
-static double solid_rows(const ambulo_problem *p) {
+/* of capsules, obstacles and cones of friction: those that are not linear */
+static double curved_rows(const ambulo_problem *p) {
   const ambulo_problem_definition *d = &p->definition;
   double per_node = d->collision.pair_count;
+  if (d->ground_reaction.friction >= 0.0) per_node += p->channels.slots;
   for (int o = 0; o < d->obstacle_count; o++)
     per_node += d->obstacles[o].capsules ? d->obstacles[o].capsule_count : p->model->capsule_count;
   return per_node * p->nodes;
@@ -144,7 +145,7 @@ double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   double lanes = 8.0 * p->blocks, word = sizeof(double);
   double bytes = 3.0 * lanes * word * ambulo__channel_count(&p->channels);
   bytes += word * (2.0 * p->variables + 1.5 * p->rows);
-  bytes += word * solid_rows(p) * ambulo__channel_count(&p->channels);
+  bytes += word * curved_rows(p) * ambulo__channel_count(&p->channels);
   bytes += word * (double)ambulo__plan_scratch(p->plan);
   if (!with_jacobians) return bytes;
   bytes += lanes * word * (pattern.count + 2.0 * pattern.dynamic_count);
@@ -157,7 +158,7 @@ double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
 double ambulo__row_bytes(const ambulo_problem *p, double rows) {
   double row = sizeof(ambulo__table_row) + terms_of_a_row * sizeof(ambulo__row_term);
   double runs = sizeof(double) + terms_of_a_row * (sizeof(double) + sizeof(int));
-  double curved = solid_rows(p) / fmax(1.0, ambulo__rows_at_most(p));
+  double curved = curved_rows(p) / fmax(1.0, ambulo__rows_at_most(p));
   row += curved * sizeof(ambulo__curved);
   return rows * (growth * row + runs + sizeof(double));
 }
@@ -172,7 +173,7 @@ double ambulo__rows_at_most(const ambulo_problem *p) {
   per_node += 24.0 * ambulo_model_foot_count(p->model) + 16.0;
   per_node += 18.0 * ambulo_model_patch_count(p->model) + 6.0 * d->reach_count;
   double points = d->joint_limits == AMBULO_LIMIT_CONTROL_POINTS ? 2.0 * p->variables : 0.0;
-  return per_node * p->nodes + solid_rows(p) + points + 6.0 * p->coordinates;
+  return per_node * p->nodes + curved_rows(p) + points + 6.0 * p->coordinates;
 }
 
 ambulo_status ambulo__check_memory(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
