@@ -36,16 +36,16 @@ static void scales_and_offsets(void **state) {
   static const double reference[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
   ambulo_term term = {.kind = AMBULO_TORQUE_SQUARED};
   assert_close(ambulo__term_scale(&term, 2), 1.0, 0.0);
-  assert_close(ambulo__term_offset(&term, 3, 1, 2), 0.0, 0.0);
+  assert_close(ambulo__term_offset(&term, NULL, 3, 1, 2), 0.0, 0.0);
   term.scale = scale;
   term.offset = offset;
   term.reference = reference;
   assert_close(ambulo__term_scale(&term, 2), 3.0, 0.0);
-  assert_close(ambulo__term_offset(&term, 3, 1, 2), 6.0, 0.0);
+  assert_close(ambulo__term_offset(&term, NULL, 3, 1, 2), 6.0, 0.0);
   term.kind = AMBULO_ACCELERATION;
-  assert_close(ambulo__term_offset(&term, 3, 1, 2), 0.0, 0.0);
+  assert_close(ambulo__term_offset(&term, NULL, 3, 1, 2), 0.0, 0.0);
   term.kind = AMBULO_TRACKING;
-  assert_close(ambulo__term_offset(&term, 3, 1, 2), 0.6, 0.0);
+  assert_close(ambulo__term_offset(&term, NULL, 3, 1, 2), 0.6, 0.0);
 }
 
 static void each_kind_has_its_function(void **state) {
@@ -120,10 +120,10 @@ static void blocks_are_their_nodes(void **state) {
       for (int i = 0; i < COORDINATES; i++) {
         double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
         for (int l = 0; l < AMBULO__LANES; l++) y[l] = random_between(&source, -1.0, 1.0);
-        ambulo__term_lanes(&term, COORDINATES, k, NODES, i, y, u);
+        ambulo__term_lanes(&term, NULL, COORDINATES, k, NODES, i, y, u);
         ambulo__term_shapes(&term, ambulo__term_least(&term), u, value, slope);
         for (int l = 0; l < AMBULO__LANES && k + l < NODES; l++) {
-          double from = ambulo__term_offset(&term, COORDINATES, k + l, i);
+          double from = ambulo__term_offset(&term, NULL, COORDINATES, k + l, i);
           ambulo__residual want = ambulo__term_residual(&term, scale[i] * (y[l] - from));
           assert_close(value[l], want.value, 0.0);
           assert_close(slope[l], want.slope, 0.0);
@@ -138,7 +138,7 @@ static void tracking_has_nothing_beyond_the_last_node(void **state) {
   double reference[NODES * COORDINATES] = {0.0}, y[AMBULO__LANES], u[AMBULO__LANES];
   ambulo_term term = term_of(AMBULO_TRACKING, reference);
   for (int l = 0; l < AMBULO__LANES; l++) y[l] = 1.0;
-  ambulo__term_lanes(&term, COORDINATES, 8, NODES, 1, y, u);
+  ambulo__term_lanes(&term, NULL, COORDINATES, 8, NODES, 1, y, u);
   for (int l = 0; l < AMBULO__LANES; l++) assert_close(u[l], 8 + l < NODES ? 0.05 : 0.0, 0.0);
 }
 

@@ -70,7 +70,8 @@ static inline double curvature_along(ambulo_workspace *w, const double *x, const
         for (int i = 0; i < p->coordinates; i++) {
           int at = k * channels + ambulo__term_channel(term, &p->channels, i);
           double scale = ambulo__term_scale(term, i), rate = scale * dy[at];
-          double u = scale * (l[2].channel[at] - ambulo__term_offset(term, p->coordinates, k, i));
+          double u =
+              scale * (l[2].channel[at] - ambulo__term_offset(term, p->lean, p->coordinates, k, i));
           sum += term->weight * q * ambulo__term_residual(term, u).curvature * rate * rate;
         }
       } else {

@@ -120,7 +120,7 @@ double ambulo__metric_curvature(const ambulo_workspace *workspace, int node, int
     if (!ambulo__term_is_simple(term)) continue;
     if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
     double scale = ambulo__term_scale(term, i);
-    double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
+    double u = scale * (y - ambulo__term_offset(term, p->lean, p->coordinates, node, i));
     sum += term->weight * scale * scale * ambulo__term_residual_from(term, 0.0, u).curvature;
   }
   return sum * p->quadrature[node];

@@ -101,6 +101,32 @@ int ambulo__is_root_translation(const ambulo_model *model, int coordinate) {
   return model->coordinates[coordinate].type == AMBULO_PRISMATIC;
 }
 
+/* what rounds to level is level */
+static double slope_of(const ambulo_model *model) {
+  static const double least = 1e-12;
+  const double *g = model->gravity;
+  double up = 0.0, forward = 0.0;
+  for (int k = 0; k < 3; k++) {
+    up -= g[k] * model->up[k];
+    forward -= g[k] * model->forward[k];
+  }
+  double slope = atan2(forward, up);
+  return fabs(slope) > least ? slope : 0.0;
+}
+
+double ambulo__lean(const ambulo_model *model, int coordinate) {
+  static const double parallel = 1.0 - 1e-9;
+  double axis[3], along = 0.0, slope = slope_of(model);
+  int own = model->coordinate_link[coordinate];
+  if (slope == 0.0 || model->coordinates[coordinate].type != AMBULO_REVOLUTE) return 0.0;
+  for (int i = model->links[own].parent; i >= 0; i = model->links[i].parent)
+    if (model->links[i].type == AMBULO_REVOLUTE) return 0.0;
+  if (!ambulo__carries_whole_body(model, coordinate)) return 0.0;
+  ambulo__neutral_axis(model, coordinate, axis);
+  for (int k = 0; k < 3; k++) along += axis[k] * model->left[k];
+  return fabs(along) > parallel ? copysign(slope, along * slope) : 0.0;
+}
+
 int ambulo__carries_whole_body(const ambulo_model *model, int coordinate) {
   for (int l = 0; l < model->link_count; l++) {
     int at = l;

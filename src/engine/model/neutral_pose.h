@@ -33,6 +33,11 @@ int ambulo__model_moves_sideways(const ambulo_model *model);
  * itself prismatic: a translation of the whole body. */
 int ambulo__is_root_translation(const ambulo_model *model, int coordinate);
 
+/* How far the rest of a coordinate's angle moves with the ground's slope, rad: of the root's pitch,
+ * the first rotation between the world and the body and about left, the slope with the axis' sign;
+ * else, and on level ground, 0 (problem/term_kinds.c, posture). */
+double ambulo__lean(const ambulo_model *model, int coordinate);
+
 /* 1 if every mass moves with the coordinate: it moves the whole body. */
 int ambulo__carries_whole_body(const ambulo_model *model, int coordinate);
 

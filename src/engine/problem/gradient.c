@@ -40,7 +40,7 @@ static double coordinate_value(const ambulo_workspace *workspace, const ambulo_t
   for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
     const size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
     double *to = slopes + at;
-    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
+    ambulo__term_lanes(term, p->lean, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
     ambulo__term_shapes(term, least, u, value, slope);
     for (int l = 0; l < AMBULO__LANES; l++) {
       sum[l] += p->quadrature[k + l] * value[l];

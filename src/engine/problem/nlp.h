@@ -71,6 +71,7 @@ struct ambulo_problem {
   int nodes, blocks;
   double *times;      /* [nodes], s; not equally spaced in general */
   double *quadrature; /* [nodes], trapezoidal weights, s */
+  double *lean;       /* [coordinates]: of rest postures (ambulo__lean), rad; NULL: on the level */
   int *active;        /* [nodes][feet] contact index or -1 */
   int *before;        /* [nodes][feet] just before the node; NULL but for grids on events */
   double

@@ -54,7 +54,7 @@ static double node_value(ambulo_workspace *workspace, const ambulo_term *term, i
       int channel = ambulo__term_channel(term, &p->channels, i);
       double y = workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
       double scale = ambulo__term_scale(term, i);
-      double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
+      double u = scale * (y - ambulo__term_offset(term, p->lean, p->coordinates, node, i));
       if (scale != 0.0) sum += ambulo__term_residual(term, u).value;
     }
     return sum;

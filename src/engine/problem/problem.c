@@ -7,6 +7,7 @@
  * Reading order: nlp.h, members.h, definition.h, problem.c, variants.c, workspace.c, term.h,
  * evaluate.c, motion.c, row_runs.h, gradient.c, row_gradients.c; derivative_check.c compares them.
  */
+#include "model/neutral_pose.h"
 #include "problem/nlp.h"
 #include "model/model_query.h"
 #include "base/arithmetic.h"
@@ -56,9 +57,21 @@ static void fill_quadrature(ambulo_problem *p) {
   }
 }
 
+static ambulo_status build_lean(ambulo_problem *p) {
+  for (int i = 0; i < p->coordinates; i++) {
+    double lean = ambulo__lean(p->model, i);
+    if (lean == 0.0) continue;
+    if (!p->lean) p->lean = ambulo__alloc(&p->allocator, (size_t)p->coordinates, sizeof *p->lean);
+    if (!p->lean) return AMBULO_E_MEMORY;
+    p->lean[i] = lean;
+  }
+  return AMBULO_OK;
+}
+
 static ambulo_status build_grid(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   ambulo_status status = build_basis(p, diagnostics);
+  if (!status) status = build_lean(p);
   if (status) return status;
   p->nodes = d->intervals + 1;
   p->blocks = ambulo__block_count(p->nodes);
@@ -344,6 +357,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__plan_free(p->plan);
   ambulo__free(&a, p->times);
   ambulo__free(&a, p->quadrature);
+  ambulo__free(&a, p->lean);
   ambulo__row_runs_free(&a, &p->row_runs);
   ambulo__free(&a, p->active);
   ambulo__free(&a, p->before);

@@ -29,11 +29,14 @@ int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channe
   return ambulo__channel_tau(channels, i);
 }
 
-double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, int i) {
+double ambulo__term_offset(const ambulo_term *term, const double *lean, int coordinates, int node,
+                           int i) {
   if (ambulo__term_has(term, AMBULO__TERM_REFERENCE))
     return term->reference[(size_t)node * (size_t)coordinates + (size_t)i];
-  int has_offset = ambulo__term_has(term, AMBULO__TERM_OFFSET | AMBULO__TERM_REST);
-  return has_offset && term->offset ? term->offset[i] : 0.0;
+  int rests = ambulo__term_has(term, AMBULO__TERM_REST);
+  int has_offset = rests || ambulo__term_has(term, AMBULO__TERM_OFFSET);
+  double offset = has_offset && term->offset ? term->offset[i] : 0.0;
+  return rests && lean ? offset + lean[i] : offset;
 }
 
 double ambulo__term_least(const ambulo_term *term) {
@@ -75,17 +78,18 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *cont
 
 /* Most terms are squares; theirs is a loop of fixed length that a compiler turns into vectors. */
 
-void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int nodes, int i,
-                        const double *y, double *u) {
+void ambulo__term_lanes(const ambulo_term *term, const double *lean, int coordinates, int node,
+                        int nodes, int i, const double *y, double *u) {
   double scale = ambulo__term_scale(term, i);
   double offset[AMBULO__LANES];
   if (ambulo__term_has(
           term,
           AMBULO__TERM_REFERENCE)) { /* the only offset that varies: none beyond the last node */
     for (int l = 0; l < AMBULO__LANES; l++)
-      offset[l] = node + l < nodes ? ambulo__term_offset(term, coordinates, node + l, i) : y[l];
+      offset[l] =
+          node + l < nodes ? ambulo__term_offset(term, lean, coordinates, node + l, i) : y[l];
   } else {
-    double same = ambulo__term_offset(term, coordinates, node, i);
+    double same = ambulo__term_offset(term, lean, coordinates, node, i);
     for (int l = 0; l < AMBULO__LANES; l++) offset[l] = same;
   }
   for (int l = 0; l < AMBULO__LANES; l++) u[l] = scale * (y[l] - offset[l]);

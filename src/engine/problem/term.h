@@ -105,10 +105,12 @@ int ambulo__term_has(const ambulo_term *term, int member);
 
 /* 1 if every residual stands on one channel: the next four serve then. */
 int ambulo__term_is_simple(const ambulo_term *term);
-/* The residual of `term` on coordinate i: its channel, scale, offset at node k. */
+/* The residual of `term` on coordinate i: its channel, scale, offset at node k. `lean`: what rests
+ * have beside their angles (ambulo_problem.lean). */
 int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channels, int i);
 double ambulo__term_scale(const ambulo_term *term, int i);
-double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, int i);
+double ambulo__term_offset(const ambulo_term *term, const double *lean, int coordinates, int node,
+                           int i);
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u);
 /* The same with what phi(0) = 0 takes away, found once for all residuals of a term; where only
  * derivatives are looked at, any will do. */
@@ -118,8 +120,8 @@ double ambulo__term_least(const ambulo_term *term);
 /* Simple terms at a whole block. Residuals u[8] on coordinate i from the channel
  * y[8] of the nodes from `node` on; beyond the last of `nodes` whatever the padding gives
  * (tracking: 0), which the caller weighs with zero. */
-void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int nodes, int i,
-                        const double *y, double *u);
+void ambulo__term_lanes(const ambulo_term *term, const double *lean, int coordinates, int node,
+                        int nodes, int i, const double *y, double *u);
 /* phi and phi' of eight residuals; `least` as above. */
 void ambulo__term_shapes(const ambulo_term *term, double least, const double *u, double *value,
                          double *slope);

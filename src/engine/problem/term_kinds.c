@@ -134,6 +134,22 @@ static void torque_rate_form(const ambulo_term *term, const ambulo__term_context
   ambulo__form_add(form, channel, 1, factor);
 }
 
+/* ----------------------------------------------------------------- posture
+ *
+ * Joints rest at angles, and the root's pitch at one against gravity.
+ *
+ *     u_i = scale_i (q_i - angles_i - lean_i),   lean_i = sigma s of the root's pitch, else 0
+ * On ground that rises by s the world's axes stay with the ground and gravity turns instead
+ * (model/conditions.c): the vertical is cos s n + sin s f, n turned about l = n x f by s. With the
+ * pitch q as the first rotation, about sigma l, the body's orientation is R_l(sigma q) Q, Q of the
+ * other angles, and seen from the vertical
+ *
+ *     R_l(-s) R_l(sigma q) Q = R_l(sigma (q - sigma s)) Q,   sigma = +-1:
+ *
+ * it stands as it does on the level at q - sigma s, for all other angles. du/dq_i = scale_i as
+ * before; du/ds = -scale_i sigma. Pitches that follow other rotations are measured from them.
+ */
+
 /* ----------------------------------------------------------------- upright */
 
 /* The line from one point of the body to another stays vertical.
