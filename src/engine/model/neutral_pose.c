@@ -114,6 +114,7 @@ static double slope_of(const ambulo_model *model) {
   return fabs(slope) > least ? slope : 0.0;
 }
 
+/* (13.n) + or - the slope */
 double ambulo__lean(const ambulo_model *model, int coordinate) {
   static const double parallel = 1.0 - 1e-9;
   double axis[3], along = 0.0, slope = slope_of(model);

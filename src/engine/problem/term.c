@@ -29,6 +29,7 @@ int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channe
   return ambulo__channel_tau(channels, i);
 }
 
+/* (13.n) the rest of a posture, against gravity */
 double ambulo__term_offset(const ambulo_term *term, const double *lean, int coordinates, int node,
                            int i) {
   if (ambulo__term_has(term, AMBULO__TERM_REFERENCE))
