@@ -11,8 +11,8 @@
  * A change of p by d changes the least objective by df*_dp d + O(d^2) as long as the same rows stay
  * active and the solution stays in its valley. How good it is:
  *
- *   - x* is known to options.optimality_tolerance; the error of df*_dp is of the first order in it.
- *     For more digits solve with a tighter tolerance.
+ *   - x* is known to options.optimality_tolerance; the error of df*_dp is of the first order in it,
+ *     and `error` estimates it. For more digits solve with a tighter tolerance.
  *   - Where active rows depend on each other (ambulo_audit.rank < active_rows), multipliers are not
  *     unique and those of the audit are one choice of many. If p moves dependent rows together,
  *     as a step length moves the corners of a flat foot, every choice gives the same value. If p
@@ -63,9 +63,14 @@ typedef struct ambulo_sensitivity {
   const char *unit;  /* SI and rad, also where a file has degrees; "" for weights, scales,
                         phases */
   double value;      /* what it is now, in unit */
+  double file_value; /* the same in the file's unit, for its body: what --set takes; NaN: an angle,
+                        and the file does not state its unit (--set angles=degrees does) */
   double derivative; /* df*_dp with all other keys of the file as they are, per unit: a step length
                         at a given speed brings the step time along, `subject.mass` brings torque
                         limits that are shares of the weight */
+  double error;      /* of the derivative, since the solve ended a little before the optimum: an
+                        estimate that the true error rarely exceeds (solver/sensitivities.c); NaN:
+                        not known */
   double travel;     /* d travel / dp, m per unit: what it adds to the distance between the ends */
   double step;       /* a change that one can picture, in unit: 1 cm, 1 degree, 1 kg, 1 % */
   double share;      /* derivative * step / f*: .008 is 0.8 %; NaN where f* is not positive */

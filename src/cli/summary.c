@@ -152,8 +152,21 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
 /* shares below this are not worth a line */
 static const double least_share = 1e-5;
 
+/* in words, +- its error in per cent of the objective, and as --set takes it */
 static void print_sensitivity(const ambulo_sensitivity *s) {
-  printf("  %-72s  %s = %.6g%s%s\n", s->words, s->name, s->value, s->unit[0] ? " " : "", s->unit);
+  const char *blank = s->unit[0] ? " " : "";
+  double error = fabs(s->share * s->error / s->derivative);
+  printf("  %-72s", s->words);
+  if (isfinite(error))
+    printf("  +-%-8.1g", 100.0 * error);
+  else
+    printf("  %10s", "");
+  if (isnan(s->file_value)) /* an angle of unknown unit */
+    printf("  %s, %.6g rad, needs --set angles=degrees\n", s->name, s->value);
+  else if (s->file_value == s->value)
+    printf("  %s=%.6g%s%s\n", s->name, s->value, blank, s->unit);
+  else
+    printf("  %s=%.6g (%.6g%s%s)\n", s->name, s->file_value, s->value, blank, s->unit);
 }
 
 void ambulo__cli_print_sensitivities(const ambulo_sensitivity_list *list) {

@@ -100,7 +100,9 @@ static void sensitivity(ambulo__json *json, const ambulo_sensitivity *s) {
   }
   ambulo__json_text(json, "unit", s->unit);
   ambulo__json_number(json, "value", s->value);
+  ambulo__json_number(json, "file_value", s->file_value);
   ambulo__json_number(json, "derivative", s->derivative);
+  ambulo__json_number(json, "error", s->error);
   ambulo__json_number(json, "step", s->step);
   ambulo__json_number(json, "share", s->share);
   ambulo__json_text(json, "words", s->words);

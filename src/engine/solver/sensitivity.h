@@ -86,6 +86,7 @@ typedef struct ambulo__parameter {
   char words[3 * AMBULO__PARAMETER_TEXT];
   ambulo__quantity quantity;
   double value, derivative, step; /* SI, rad; step: a change that a person can picture */
+  double error;                   /* of the derivative; NaN: not known */
   double travel;                  /* d/dp of the definition's travel, m */
   double share;                   /* of f*, by one step; NaN where f* is not positive */
   int order;                      /* before sorting */
@@ -172,8 +173,8 @@ ambulo_status ambulo__parameters_differ(ambulo__parameters *parameters, const do
 ambulo_status ambulo__parameter_is_smooth(ambulo__parameters *parameters,
                                           const ambulo__parameter *parameter, int *smooth);
 
-/* ambulo_sensitivities of a point that may not be optimal: as good as it is; of the numbers of
- * these names alone (NULL: of all). */
+/* ambulo_sensitivities of a point that may not be optimal: as good as it is, without errors; of the
+ * numbers of these names alone (NULL: of all). */
 ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
                                            const ambulo_result *result, const char *const *names,
                                            int count, const ambulo_allocator *allocator,

@@ -109,8 +109,10 @@ function sensitivities(summary) {
     return why ? el("p", {}, `There are none: ${why}.`) : null;
   }
   const sorted = list.slice().sort((a, b) => Math.abs(b.share) - Math.abs(a.share));
+  const error = (s) => (Number.isFinite(s.error) && s.derivative
+    ? ` ± ${short(100 * Math.abs((s.share * s.error) / s.derivative), 1)}` : "");
   const rows = (part) => bars(part.map((s) => ({ words: s.words, code: s.name, share: s.share,
-    value: `${s.share > 0 ? "+" : "−"}${percent(Math.abs(s.share))}` })), "Sensitivities");
+    value: `${s.share > 0 ? "+" : "−"}${short(100 * Math.abs(s.share), 2)}${error(s)} %` })), "Sensitivities");
   const box = el("div", {}, el("p", {}, "What a small change of one number of the problem does to the "
     + "least objective; everything else stays, and the motion adapts."), rows(sorted.slice(0, 10)));
   if (sorted.length > 10) box.append(el("details", {}, el("summary", {},
