@@ -44,7 +44,8 @@ typedef struct ambulo_ground_reaction {
                               6.5 ms at a stature of 1.75 m, scaled by its root. AMBULO_OFF: no rows */
   double flight_tolerance; /* > 0. While nothing touches the body, the force on it is at most this,
                               body weights, and so is the moment about its centre of mass, body
-                              weights times 1 m at a stature of 1.75 m, scaled by it */
+                              weights times 1 m at a stature of 1.75 m, scaled by it. At the nodes
+                              of a flight that its spline can hold, 1/50 of it */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at toe-off to 1 at strike;

@@ -5,9 +5,9 @@
  *
  * Reading order: rows.h, rows.c, contacts.h, contacts.c, foot.c, contact_load.c; schedule.h,
  * schedule.c, footholds.c, phases.c, gait.c, ends.c, mirror_check.c; then a family of rows each:
- * place_rows.c, contact_tube.c, clearance.c, zmp.c, force_rows.c, limits.c, curved.h, curved.c,
- * capsules.c, collision_pairs.c, collision_rows.c, collision_check.c; devices.h, devices.c,
- * load_motion.c, load_profile.c, holds.c, load_check.c. */
+ * place_rows.c, contact_tube.c, clearance.c, zmp.c, force_rows.c, flight.c, limits.c, curved.h,
+ * curved.c, capsules.c, collision_pairs.c, collision_rows.c, collision_check.c; devices.h,
+ * devices.c, load_motion.c, load_profile.c, holds.c, load_check.c. */
 #ifndef AMBULO_CONTACT_ROW_FAMILIES_H
 #define AMBULO_CONTACT_ROW_FAMILIES_H
 
@@ -197,12 +197,17 @@ ambulo_status ambulo__support_region_of(const ambulo_problem_definition *definit
  * first node has what is just before the last. */
 int ambulo__in_flight(const ambulo__gait_context *context, int node);
 
-/* What of the tolerance holds at such a node: 1 inside, less where a contact begins or ends. */
-double ambulo__flight_share(const ambulo__gait_context *context, int node);
+/* 1 if the node is nearest to one of as many times between nodes `first` and `last` as the
+ * accelerations' spline has coefficients there; of trajectories that are no B-splines always. */
+int ambulo__is_collocated(const ambulo__gait_context *context, int first, int last, int node);
 
 /* "flight": no force, no moment about the centre of mass, within ground_reaction.flight_tolerance.
  */
 void ambulo__flight_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+
+/* How much less such a row leaves than it would at a node without collocation, in its unit. */
+double ambulo__flight_room(const ambulo_problem_definition *definition,
+                           const ambulo__row_table *table, const ambulo__table_row *row);
 
 /* The first time in [0, T] from which on no contact holds, until `to`; 0 if there is none. */
 int ambulo__flight_span(const ambulo_problem_definition *definition, ambulo__span *span);

@@ -19,6 +19,15 @@ static const char *detail_of(const ambulo__dense *dense, const ambulo__table_row
   return about < 0 ? row->detail : dense->problem->definition.obstacles[about].name;
 }
 
+/* Flight is held tighter at a few nodes, which the finer grid has elsewhere (contact/flight.c). */
+static double missed(const ambulo__dense *dense, int r) {
+  const ambulo_problem *fine = dense->fine;
+  const ambulo__table_row *row = &fine->table.rows[r];
+  double value = ambulo__row_violation(fine, r, dense->row_value[r]);
+  if (row->kind != AMBULO__KIND_FLIGHT || value == 0.0) return value;
+  return fmax(0.0, value - ambulo__flight_room(&fine->definition, &fine->table, row));
+}
+
 static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dense_visitor visit,
                       void *user) {
   const ambulo_problem *fine = dense->fine;
@@ -30,7 +39,7 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
                                  .detail = detail_of(dense, row),
                                  .unit = row->unit,
                                  .time = row->time,
-                                 .value = ambulo__row_violation(fine, r, dense->row_value[r]),
+                                 .value = missed(dense, r),
                                  .tolerance = rule->tolerance};
   if (rule->of_limit) sample.tolerance *= ambulo__dense_limit_size(fine, row);
   visit(user, &sample);

@@ -83,10 +83,11 @@ static void test_flight_expect(row_fixture *f, const char *detail, double value)
   assert_close(got, value, 1e-12);
 }
 
-/* a body of 1.4 m has 0.8 of the room about its centre */
+/* At nodes of collocation, of which a fixture with as many nodes as breakpoints has no others, a
+ * twenty-fifth of the room between them. A body of 1.4 m has 0.8 of it about its centre. */
 static void rows_are_the_wrench_about_the_centre(void **state) {
   (void)state;
-  const double room = 0.8 * 0.02;
+  const double most = 0.02 / 50.0, room = 0.8 * most;
   row_fixture f;
   test_flight_prepare(&f, 0);
   f.model->stature = 1.4;
@@ -99,11 +100,11 @@ static void rows_are_the_wrench_about_the_centre(void **state) {
     *row_channel(&f, 3, ambulo__channel_moment(c, i)) = test_flight_mg * moment[i];
     *row_channel(&f, 3, ambulo__channel_center(c, i)) = center[i];
   }
-  test_flight_expect(&f, "pushed backward", 0.02 + 0.004);
-  test_flight_expect(&f, "pushed forward", 0.02 - 0.004);
-  test_flight_expect(&f, "pushed up", 0.02 - 0.007);
-  test_flight_expect(&f, "pushed to the left", 0.02 - 0.009);
-  test_flight_expect(&f, "pushed to the right", 0.02 + 0.009);
+  test_flight_expect(&f, "pushed backward", most + 0.004);
+  test_flight_expect(&f, "pushed forward", most - 0.004);
+  test_flight_expect(&f, "pushed up", most - 0.007);
+  test_flight_expect(&f, "pushed to the left", most - 0.009);
+  test_flight_expect(&f, "pushed to the right", most + 0.009);
   double about[3] = {moment[0] - (1.1 * -0.009 - 0.2 * 0.007),
                      moment[1] - (0.2 * 0.004 - 0.6 * -0.009),
                      moment[2] - (0.6 * 0.007 - 1.1 * 0.004)};
@@ -116,20 +117,98 @@ static void rows_are_the_wrench_about_the_centre(void **state) {
   row_fixture_close(&f);
 }
 
-/* a fifth of the tolerance where a contact ends or begins: all channels are zero here */
-static void less_is_left_beside_a_contact(void **state) {
+/* How far from zero the force may be at the nodes: all channels are zero here. */
+static void expect_room(row_fixture *f, int node, double room) {
+  static const char *const details[] = {"pushed up", "pushed forward", "tipped forward"};
+  for (int i = 0; i < 3; i++) {
+    int row = row_find(f, "flight", "body", details[i], f->times[node]);
+    double got = row_value(f, row);
+    if (fabs(got - room) > 1e-15) print_error("node %d: %g, expected %g\n", node, got, room);
+    assert_close(got, room, 1e-15);
+  }
+}
+
+static void set_basis(row_fixture *f, int degree, int intervals) {
+  ambulo__basis_free(f->basis);
+  assert_int_equal(
+      ambulo__basis_create(AMBULO__BSPLINE, degree, intervals, 1.0, NULL, NULL, &f->basis),
+      AMBULO_OK);
+  f->context.basis = f->basis;
+}
+
+/* A flight from 0.5 s to 1 s. Accelerations of degree 1 with breakpoints at 0.5 and 1 s are a
+ * straight line there: two equations, at its ends. Of degree 2 they are a parabola: three. With a
+ * breakpoint at 0.75 s a straight line has three as well. */
+static void as_many_nodes_are_held_as_a_spline_can(void **state) {
+  (void)state;
+  static const struct {
+    int degree, intervals, middle;
+  } cases[] = {{3, 2, 0}, {4, 2, 1}, {3, 4, 1}, {3, 1, 0}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    row_fixture f;
+    test_flight_prepare(&f, 0);
+    row_event(&f, 2, WALKER_RIGHT, 0);
+    row_event(&f, 4, WALKER_LEFT, -1);
+    set_basis(&f, cases[i].degree, cases[i].intervals);
+    ambulo__flight_rows(&f.context, &f.table);
+    expect_room(&f, 2, 0.02 / 50.0);
+    expect_room(&f, 3, cases[i].middle ? 0.02 / 50.0 : 0.02 / 2.0);
+    expect_room(&f, 4, 0.02 / 50.0);
+    row_fixture_close(&f);
+  }
+}
+
+enum { MANY = 401 };
+
+/* nodes of a flight that lasts all the time: which are held tight, and how many */
+static int collocated(int degree, int intervals, int nodes, char held[MANY]) {
+  row_fixture f;
+  double times[MANY];
+  int count = 0;
+  row_fixture_open(&f, 0);
+  set_basis(&f, degree, intervals);
+  for (int k = 0; k < nodes; k++) times[k] = k / (nodes - 1.0);
+  f.context.times = times;
+  f.context.nodes = nodes;
+  for (int k = 0; k < nodes; k++) {
+    held[k] = (char)ambulo__is_collocated(&f.context, 0, nodes - 1, k);
+    count += held[k];
+  }
+  row_fixture_close(&f);
+  return count;
+}
+
+/* K intervals of degree p: K + p - 2 nodes, the ends among them, however many nodes there are; of
+ * accelerations of degree 1 those on the breakpoints */
+static void finer_nodes_have_no_more_equations(void **state) {
+  (void)state;
+  char held[MANY];
+  for (int nodes = 101; nodes <= MANY; nodes += 100)
+    for (int degree = 3; degree <= 6; degree++) {
+      assert_int_equal(collocated(degree, 10, nodes, held), 10 + degree - 2);
+      assert_true(held[0] && held[nodes - 1]);
+    }
+  collocated(3, 10, 101, held);
+  for (int k = 0; k < 101; k++) assert_int_equal(held[k], k % 10 == 0);
+  /* as many nodes as breakpoints: at every one */
+  assert_int_equal(collocated(4, 10, 11, held), 11);
+}
+
+/* where the finer grid is tighter, and the one of the solve was not, that is not counted */
+static void the_tighter_bound_is_of_the_nodes_alone(void **state) {
   (void)state;
   row_fixture f;
   test_flight_prepare(&f, 0);
+  set_basis(&f, 3, 2);
+  f.model->stature = 1.4;
   row_event(&f, 2, WALKER_RIGHT, 0);
   row_event(&f, 4, WALKER_LEFT, -1);
   ambulo__flight_rows(&f.context, &f.table);
-  static const char *const details[] = {"pushed up", "pushed forward", "tipped forward"};
-  for (int k = 2; k < ROW_NODES; k++)
-    for (int i = 0; i < 3; i++) {
-      int row = row_find(&f, "flight", "body", details[i], f.times[k]);
-      assert_close(row_value(&f, row), k == 3 ? 0.02 : 0.2 * 0.02, 1e-15);
-    }
+  for (int r = 0; r < f.table.row_count; r++) {
+    double room = ambulo__flight_room(&f.definition, &f.table, &f.table.rows[r]);
+    double arm = ambulo__row_curved_of(&f.table, &f.table.rows[r]) ? 0.8 : 1.0;
+    assert_close(room, f.table.rows[r].node == 3 ? 0.0 : arm * 0.02 * (0.5 - 0.02), 1e-15);
+  }
   row_fixture_close(&f);
 }
 
@@ -212,10 +291,12 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_holds_in_flight),
                                      cmocka_unit_test(ends_that_match_share_a_flight),
                                      cmocka_unit_test(rows_are_the_wrench_about_the_centre),
-                                     cmocka_unit_test(less_is_left_beside_a_contact),
+                                     cmocka_unit_test(as_many_nodes_are_held_as_a_spline_can),
+                                     cmocka_unit_test(finer_nodes_have_no_more_equations),
+                                     cmocka_unit_test(the_tighter_bound_is_of_the_nodes_alone),
                                      cmocka_unit_test(a_planar_body_has_three),
                                      cmocka_unit_test(contacts_have_no_rows_there),
                                      cmocka_unit_test(hands_hold_a_body_too),
                                      cmocka_unit_test(the_first_flight_is_found)};
-  return cmocka_run_group_tests_name("contact/force_rows_flight", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("contact/flight", tests, NULL, NULL);
 }
