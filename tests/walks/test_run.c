@@ -136,8 +136,8 @@ static void momenta_are_those_of_a_body_in_flight(run *r) {
       double fallen = first.linear[i] + m->mass * m->gravity[i] * since;
       if (!(fabs(now.linear[i] - fallen) <= pushed &&
             fabs(now.angular[i] - first.angular[i]) <= turned))
-        print_error("axis %d, %g s: %g N s, %g kg m^2/s\n", i, times[k],
-                    now.linear[i] - fallen, now.angular[i] - first.angular[i]);
+        print_error("axis %d, %g s: %g N s, %g kg m^2/s\n", i, times[k], now.linear[i] - fallen,
+                    now.angular[i] - first.angular[i]);
       assert_true(fabs(now.linear[i] - fallen) <= pushed);
       assert_true(fabs(now.angular[i] - first.angular[i]) <= turned);
     }
