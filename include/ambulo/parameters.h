@@ -99,11 +99,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_parameters(
     const ambulo_options *options, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **best, ambulo_result **result);
 
-/* ambulo_solve, repeated on finer grids, each started from the last motion, until the motion also
- * holds between the nodes (ambulo_dense_audit) or no finer grid is predicted to help. *finer is the
- * problem on the last grid, or NULL if the problem's own grid was enough. The caller frees *result,
- * then *finer, then `problem`, whose model *finer shares. options.time_limit covers all solves.
- * Errors: those of ambulo_solve. */
+/* ambulo_solve, repeated on grids with twice the intervals, each started from the last motion,
+ * until the motion also holds between the nodes (ambulo_dense_audit) and the objective changes by
+ * less than 1 %, at most four times. *finer is the problem of *result, on the best grid; NULL if
+ * that is the problem's own. The caller frees *result, then *finer, then `problem`, whose model
+ * *finer shares. ambulo_result_refinement lists the grids. Where `problem` has free parameters,
+ * those of its file are found on its own grid (ambulo_solve_parameters), and *finer is never NULL.
+ * options.time_limit covers all solves. Errors: those of ambulo_solve. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_refined(
     const ambulo_problem *problem, const ambulo_options *options, const double *start,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **finer,

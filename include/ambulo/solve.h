@@ -111,7 +111,7 @@ typedef struct ambulo_options {
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
   int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:
-                 auto`; without effect in ambulo_solve */
+                 auto`, and `ambulo solve --refine`; without effect in ambulo_solve */
   int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as
                  fine, the same in every run; the solve continues from the best and from its own
                  start, and returns the better result (ambulo_result_starts); without effect where
@@ -362,6 +362,22 @@ typedef struct ambulo_starts {
 } ambulo_starts;
 /* NULL for one start. */
 AMBULO_API const ambulo_starts *ambulo_result_starts(const ambulo_result *result);
+/* A grid that ambulo_solve_refined solved. */
+typedef struct ambulo_grid {
+  int intervals, spline_intervals; /* of time, of the trajectory */
+  double objective;
+  ambulo_verdict verdict;
+  int holds; /* 1: between the nodes too */
+  int kept;  /* 1: it was the best so far; the last such grid is that of the result */
+} ambulo_grid;
+typedef struct ambulo_refinement {
+  const ambulo_grid *grids; /* [grid_count], in the order in which they were solved */
+  int grid_count;
+  double resolution; /* by what share of it the objective is estimated to fall on finer grids; < 0:
+                        to rise; NAN: unknown */
+} ambulo_refinement;
+/* NULL: there was one grid. */
+AMBULO_API const ambulo_refinement *ambulo_result_refinement(const ambulo_result *result);
 /* Why the solver ended, in words, with the method and what it took. */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
 /* The same as a code. */

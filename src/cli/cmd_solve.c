@@ -165,6 +165,7 @@ static ambulo_status print_outcome(job *j, int written) {
     printf("written to   %s\n", j->directory);
     printf("picture      %s/gait.svg\n", j->directory);
   }
+  ambulo__cli_print_resolution(j->result);
   ambulo__cli_print_last(j->result);
   return AMBULO_OK;
 }
@@ -249,10 +250,10 @@ static ambulo_status solve(job *j) {
       .give_up = give_up_solve, .user = j, .problem = j->problem, .limit = options.time_limit};
   ambulo__cli_watch_begin(&j->watch);
   ambulo_status status;
-  if (ambulo_problem_parameters(j->problem).count > 0) {
-    status = solve_parameters(j, &options);
-  } else if (options.refine) {
+  if (options.refine || ambulo__cli_flag(j->input, "refine")) {
     status = solve_refined(j, &options);
+  } else if (ambulo_problem_parameters(j->problem).count > 0) {
+    status = solve_parameters(j, &options);
   } else {
     status = ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
     ambulo__cli_watch_end(&j->watch);
@@ -313,6 +314,9 @@ static const ambulo__cli_option options[] = {
      "repeat the start over the duration: it is one step, followed by its\nmirror image, or one "
      "stride"},
     {"time-limit", 0, "S", "stop after S seconds and keep the best point; 0: no limit"},
+    {"refine", 0, NULL,
+     "solve on grids twice as fine until the objective changes by less than\n1 % and the motion "
+     "holds between its nodes; write the best"},
     {"samples", 0, "n", "number of times in motion.csv (default: the time nodes)"},
     {"force", 0, NULL, "replace an existing result folder"},
     {"quiet", 'q', NULL, "no progress, no summary"},

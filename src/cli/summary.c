@@ -109,6 +109,28 @@ void ambulo__cli_print_last(const ambulo_result *result) {
   if (dense && dense->summary[0]) printf("%s\n", dense->summary);
 }
 
+/* "grids  64 (trajectory 14): 0.1291, optimal", a line each */
+static void print_grids(const ambulo_refinement *refinement) {
+  for (int i = 0; refinement && i < refinement->grid_count; i++) {
+    const ambulo_grid *g = &refinement->grids[i];
+    printf("%-12s %d time intervals, %d of the trajectory: objective %.6g, %s%s%s\n",
+           i ? "" : "grids", g->intervals, g->spline_intervals, g->objective,
+           ambulo_verdict_name(g->verdict), g->holds ? "" : ", not between the nodes",
+           g->kept ? "" : "; not kept");
+  }
+}
+
+void ambulo__cli_print_resolution(const ambulo_result *result) {
+  const ambulo_refinement *refinement = ambulo_result_refinement(result);
+  if (!ambulo_verdict_is_solution(ambulo_result_verdict(result))) return;
+  if (!refinement || isnan(refinement->resolution)) {
+    printf("resolution unknown: --refine tells\n");
+    return;
+  }
+  printf("resolution: the objective %s by an estimated %.2g %% on finer grids\n",
+         refinement->resolution < 0.0 ? "rises" : "falls", 100.0 * fabs(refinement->resolution));
+}
+
 /* "starts  8, of which 7 hold every row on 30 intervals: 2 motions, 0.0640 (5 times), 0.0712 (2
  * times); the result is from start 3" */
 static void print_starts(const ambulo_starts *starts) {
@@ -146,6 +168,7 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
     printf("NLopt        %d calls, %d outer iterations, %d evaluations, last result %s\n",
            nlopt->calls, nlopt->outer, nlopt->inner, nlopt->result_name);
   print_starts(ambulo_result_starts(result));
+  print_grids(ambulo_result_refinement(result));
   if (ambulo_result_ending(result)) printf("ending       %s\n", ambulo_result_ending(result));
 }
 

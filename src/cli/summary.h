@@ -8,6 +8,8 @@
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result);
 
 /* What fails between the nodes and what helps, in one sentence; nothing where nothing fails. */
+/* What finer grids would still bring, or that it is not known; nothing without a solution. */
+void ambulo__cli_print_resolution(const ambulo_result *result);
 void ambulo__cli_print_last(const ambulo_result *result);
 
 /* What each number of the problem costs, one in a line, or why that is not known. */

@@ -309,6 +309,26 @@ static void starts(ambulo__json *json, const ambulo_starts *s) {
   ambulo__json_close(json, '}');
 }
 
+/* the grids that were solved, and what finer ones would still bring */
+static void resolution(ambulo__json *json, const ambulo_refinement *r) {
+  ambulo__json_open(json, "resolution", '{');
+  ambulo__json_number(json, "estimate", r ? r->resolution : (double)NAN);
+  ambulo__json_open(json, "grids", '[');
+  for (int g = 0; r && g < r->grid_count; g++) {
+    const ambulo_grid *grid = &r->grids[g];
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_integer(json, "intervals", grid->intervals);
+    ambulo__json_integer(json, "trajectory_intervals", grid->spline_intervals);
+    ambulo__json_number(json, "objective", grid->objective);
+    ambulo__json_text(json, "verdict", ambulo_verdict_name(grid->verdict));
+    ambulo__json_integer(json, "holds", grid->holds);
+    ambulo__json_integer(json, "kept", grid->kept);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
+}
+
 static void effort(ambulo__json *json, const ambulo_result *result) {
   const ambulo_timing *timing = ambulo_result_timing(result);
   ambulo__json_integer(json, "iterations", ambulo_result_iterations(result));
@@ -363,6 +383,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   list_sensitivities(json, options->sensitivities);
   sizes(json, problem);
   starts(json, ambulo_result_starts(result));
+  resolution(json, ambulo_result_refinement(result));
   effort(json, result);
   ambulo__history_json(json, result);
   versions(json);

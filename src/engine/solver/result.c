@@ -46,6 +46,7 @@ void ambulo_result_free(ambulo_result *r) {
   ambulo__free(&a, r->dense);
   ambulo__free(&a, r->outcome);
   ambulo__free(&a, r->valleys);
+  ambulo__free(&a, r->refinement);
   ambulo__free(&a, r->history);
   ambulo__free(&a, r);
 }

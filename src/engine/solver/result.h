@@ -10,6 +10,7 @@ struct ambulo__explanation;  /* solver/explain.h */
 struct ambulo__dense_report; /* solver/dense.h */
 struct ambulo__outcome;      /* solver/free_search.c */
 struct ambulo__valleys;      /* solver/solve.c */
+struct ambulo__refinement;   /* solver/free_refined.c */
 struct ambulo__history;      /* method/run.h */
 
 struct ambulo_result {
@@ -31,7 +32,8 @@ struct ambulo_result {
   struct ambulo__dense_report *dense;      /* NULL: not audited */
   struct ambulo__valleys *valleys;         /* of several starts; NULL: there was one */
   struct ambulo__history *history;
-  struct ambulo__outcome *outcome; /* of free parameters; NULL: there were none */
+  struct ambulo__outcome *outcome;       /* of free parameters; NULL: there were none */
+  struct ambulo__refinement *refinement; /* of finer grids; NULL: there were none */
   char ending[AMBULO__ENDING_SIZE];
 };
 
@@ -59,6 +61,10 @@ ambulo_verdict ambulo__verdict_at_nodes(ambulo_verdict verdict);
 /* The verdict of the whole motion; `ratio`: the worst row between the nodes by its tolerance, not
  * a number where it is not finite. */
 ambulo_verdict ambulo__verdict_between_nodes(ambulo_verdict verdict, double ratio);
+
+/* (J_n - J) / |J_n| of objectives on grids twice as fine each, by Richardson (free_refined.c); not
+ * a number for fewer than two. */
+double ambulo__resolution_error(const double *objective, int count);
 
 /* A method that gave up where values or derivatives were not finite failed for that reason. */
 void ambulo__ending_of_faults(ambulo__run *run);

@@ -147,6 +147,12 @@ class Result(Owner):
         return self._record(records.Starts, lib.ambulo_result_starts)
 
     @property
+    def refinement(self) -> Optional[records.Refinement]:
+        """The grids of Problem.solve_refined, and what finer ones would still bring; None for one
+        grid."""
+        return self._optional(lib.ambulo_result_refinement(self._pointer), records.Refinement)
+
+    @property
     def ending(self) -> str:
         """Why the solver ended, in words."""
         return self._read(text_of, lib.ambulo_result_ending)
