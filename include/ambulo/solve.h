@@ -363,15 +363,15 @@ typedef struct ambulo_starts {
 /* NULL for one start. */
 AMBULO_API const ambulo_starts *ambulo_result_starts(const ambulo_result *result);
 /* A grid that ambulo_solve_refined solved. */
-typedef struct ambulo_grid {
+typedef struct ambulo_refined_grid {
   int intervals, spline_intervals; /* of time, of the trajectory */
   double objective;
   ambulo_verdict verdict;
   int holds; /* 1: between the nodes too */
   int kept;  /* 1: it was the best so far; the last such grid is that of the result */
-} ambulo_grid;
+} ambulo_refined_grid;
 typedef struct ambulo_refinement {
-  const ambulo_grid *grids; /* [grid_count], in the order in which they were solved */
+  const ambulo_refined_grid *grids; /* [grid_count], in the order in which they were solved */
   int grid_count;
   double resolution; /* by what share of it the objective is estimated to fall on finer grids; < 0:
                         to rise; NAN: unknown */

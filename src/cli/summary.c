@@ -112,7 +112,7 @@ void ambulo__cli_print_last(const ambulo_result *result) {
 /* "grids  64 (trajectory 14): 0.1291, optimal", a line each */
 static void print_grids(const ambulo_refinement *refinement) {
   for (int i = 0; refinement && i < refinement->grid_count; i++) {
-    const ambulo_grid *g = &refinement->grids[i];
+    const ambulo_refined_grid *g = &refinement->grids[i];
     printf("%-12s %d time intervals, %d of the trajectory: objective %.6g, %s%s%s\n",
            i ? "" : "grids", g->intervals, g->spline_intervals, g->objective,
            ambulo_verdict_name(g->verdict), g->holds ? "" : ", not between the nodes",

@@ -315,7 +315,7 @@ static void resolution(ambulo__json *json, const ambulo_refinement *r) {
   ambulo__json_number(json, "estimate", r ? r->resolution : (double)NAN);
   ambulo__json_open(json, "grids", '[');
   for (int g = 0; r && g < r->grid_count; g++) {
-    const ambulo_grid *grid = &r->grids[g];
+    const ambulo_refined_grid *grid = &r->grids[g];
     ambulo__json_open(json, NULL, '{');
     ambulo__json_integer(json, "intervals", grid->intervals);
     ambulo__json_integer(json, "trajectory_intervals", grid->spline_intervals);

@@ -1,10 +1,10 @@
 /* solver/free_refined.c - finer grids until the objective no longer changes.
  *
- * Each grid has twice the intervals of the last one, of time and of the trajectory, or as many time
- * intervals as the dense audit predicts to help (solver/dense_cure.c), at most four times as many.
- * It is solved from the motion found so far, which it holds exactly (knot insertion). The end is
- * where the motion holds between its nodes and one more grid changes the objective by less than
- * CHANGE of it, or ROUNDS grids further.
+ * Each grid has twice the intervals of the last one, of time and of the trajectory; more in time,
+ * up to four times, where the dense audit predicts that the trajectory holds on more nodes. It is
+ * solved from the motion found so far, which it contains exactly (knot insertion). The end is where
+ * the motion holds between its nodes and one more grid changes the objective by less than `change`
+ * of it, or ROUNDS grids further.
  *
  * A finer grid's result is kept unless it is in a worse valley. The coarser motion is one of the
  * finer grid too, and a candidate there if it holds between its nodes: what comes to more than that
@@ -36,7 +36,7 @@ static const double same_valley = 1e-3; /* the same: by so much a solve may miss
 
 typedef struct ambulo__refinement {
   ambulo_refinement shown;
-  ambulo_grid grid[MOST_GRIDS];
+  ambulo_refined_grid grid[MOST_GRIDS];
 } ambulo__refinement;
 
 typedef struct refinement {
@@ -64,14 +64,14 @@ static int is_solved(const ambulo_result *result) {
   return ambulo_verdict_is_solution(ambulo__verdict_at_nodes(result->verdict));
 }
 
-static void next_grid(const refinement *r, int *intervals, int *spline) {
+/* twice as many; or in the ratio to the trajectory's that the dense audit predicts to hold */
+static int next_intervals(const refinement *r) {
   const ambulo_problem *p = current(r);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r->result);
-  int nodes = p->definition.intervals, predicted = dense ? dense->intervals : 0;
-  *intervals = 2 * nodes;
-  if (predicted > *intervals) *intervals = predicted;
-  if (*intervals > MOST_STEP * nodes) *intervals = MOST_STEP * nodes;
-  *spline = 2 * ambulo__basis_intervals(p->basis);
+  int nodes = p->definition.intervals, same = 0;
+  if (dense) same = dense->spline_intervals == ambulo__basis_intervals(p->basis);
+  int enough = same && dense->intervals > nodes ? 2 * dense->intervals : 2 * nodes;
+  return enough < MOST_STEP * nodes ? enough : MOST_STEP * nodes;
 }
 
 /* ------------------------------------------------------------- what is left */
@@ -93,12 +93,12 @@ static void add_grid(refinement *r, const ambulo_problem *p, const ambulo_result
   ambulo_refinement *shown = &r->grids->shown;
   if (shown->grid_count == MOST_GRIDS) return;
   r->grids->grid[shown->grid_count++] =
-      (ambulo_grid){.intervals = p->definition.intervals,
-                    .spline_intervals = ambulo__basis_intervals(p->basis),
-                    .objective = result->objective,
-                    .verdict = result->verdict,
-                    .holds = holds(result),
-                    .kept = kept};
+      (ambulo_refined_grid){.intervals = p->definition.intervals,
+                            .spline_intervals = ambulo__basis_intervals(p->basis),
+                            .objective = result->objective,
+                            .verdict = result->verdict,
+                            .holds = holds(result),
+                            .kept = kept};
 }
 
 static void estimate(refinement *r) {
@@ -151,11 +151,11 @@ static void replace(refinement *r, ambulo_problem *finer, ambulo_result *result,
 /* one grid further; *done: it is the last */
 static ambulo_status refine(refinement *r, int *done) {
   ambulo_allocator a = ambulo__allocator_or_default(r->allocator);
-  int intervals, spline;
+  int intervals = next_intervals(r);
+  int spline = 2 * ambulo__basis_intervals(current(r)->basis);
   ambulo_problem *finer = NULL;
   ambulo_result *result = NULL;
   ambulo_diagnostics *messages = NULL;
-  next_grid(r, &intervals, &spline);
   ambulo_status status =
       ambulo__problem_with_grid(current(r), intervals, spline, r->allocator, &finer);
   double *x = status ? NULL : ambulo__alloc(&a, (size_t)finer->variables, sizeof *x);
