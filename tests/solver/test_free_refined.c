@@ -151,7 +151,7 @@ static void a_stop_keeps_the_best(void **state) {
 
 static void memory_runs_out(void **state) {
   (void)state;
-  ambulo_problem *problem = load("support/walker_2d_step", NULL, 0);
+  ambulo_problem *problem = load("pendulum_swing", NULL, 0);
   for (long at = 0;; at += at < 30 ? 1 : 97) {
     fail_alloc memory = fail_alloc_at(at);
     ambulo_allocator hook = fail_alloc_hook(&memory);
