@@ -4,7 +4,7 @@
  * gradient of a weighted sum (reverse sweep), and all Jacobians, each at a fresh point so that
  * nothing is cached; the time of all three per node, and the power of N it grows with. Then, at N =
  * 72, the same with families of rows switched off. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 #include "problem/nlp.h"

@@ -10,7 +10,7 @@
  *
  * Also the forward solves of 3 d border columns, and the Gram matrix of a node: 2 d rows of which
  * half is zero, on splines of degree 3 (linear/band.h). */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "base/lapack.h"
 #include "bench_csv.h"
 #include "linear/band.h"

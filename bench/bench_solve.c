@@ -6,7 +6,7 @@
  * included): processor seconds, where they go, evaluations, objective; the power of N that the
  * time grows with; then the small problems by each algorithm. A case
  * that ends without a feasible point is printed as such, and its time is not recorded. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 

@@ -10,7 +10,7 @@
  * published figures (SNOPT on a PC of 3.2 GHz). Then the nonzeros of the first derivatives, counted
  * at a generic point row by row, beside the formulas of Table 3 with d = 18, N_p = 8, N_s = 1, N_z
  * = 4 and n = N + 3 control points. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 

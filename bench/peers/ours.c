@@ -8,7 +8,6 @@
  * frames along the world's axes, the form that is cheapest for them. Where a joint turns about a
  * negative axis, its coordinate is reversed for the peers. Times are of the model without its
  * named points, as the peers have none, and once with them. */
-#include "mechanics/kernels.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
 #include "mechanics/plan.h"

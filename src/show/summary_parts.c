@@ -1,6 +1,6 @@
 /* show/summary_parts.c - the parts of summary.json: versions, clearances, devices, work,
  * convergence, loads in hands, ground reaction. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "show/summary_json.h"
 
 #include "ambulo/tools/tools.h"

@@ -1,5 +1,5 @@
 /* The kernels of each instruction set against LAPACK and plain sums, on sizes that fill no tile. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "ambulo/mechanics.h"
 #include "base/lapack.h"
 #include "linear/band.h"

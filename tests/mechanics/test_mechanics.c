@@ -2,7 +2,11 @@
  * everything as it was. Accuracy of the kernels themselves is tested in test_kernels_*.c. */
 #include "ambulo/mechanics.h"
 #include "mechanics/kernel_fixture.h"
+#include "mechanics/plan.h"
 #include "support/fail_alloc.h"
+#include "support/test.h"
+
+#include <stdlib.h>
 
 enum { most_nodes = 20 };
 
@@ -302,7 +306,7 @@ static void failed_allocations_unwind(void **state) {
   case_close(&c);
 }
 
-int main(void) {
+static int test_mechanics_tests(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(outputs_at_every_length),
                                      cmocka_unit_test(jacobians_and_gradient_belong_together),
                                      cmocka_unit_test(failures_leave_outputs_untouched),
@@ -310,4 +314,52 @@ int main(void) {
                                      cmocka_unit_test(arguments_are_checked),
                                      cmocka_unit_test(failed_allocations_unwind)};
   return cmocka_run_group_tests_name("mechanics/mechanics", tests, NULL, NULL);
+}
+
+/* Choosing a kernel set: names, the environment's word, and nothing half-built. */
+
+static const char *const names[] = {"avx512", "avx2", "baseline", "scalar"};
+
+static void sets_are_complete_and_named(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    const ambulo__kernels *set = ambulo__kernels_by_name(names[i]);
+    if (!set) continue;
+    assert_string_equal(set->name, names[i]);
+    assert_true(set->outputs && set->forward && set->reverse && set->jacobian);
+  }
+  assert_non_null(ambulo__kernels_by_name("baseline"));
+  assert_non_null(ambulo__kernels_by_name("scalar"));
+  assert_null(ambulo__kernels_by_name("avx1024"));
+  assert_null(ambulo__kernels_by_name(NULL));
+}
+
+static void the_fastest_is_chosen_unless_told(void **state) {
+  (void)state;
+  unsetenv("AMBULO_ISA");
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    const ambulo__kernels *set = ambulo__kernels_by_name(names[i]);
+    if (!set) continue;
+    assert_ptr_equal(ambulo__kernels_select(), set);
+    break;
+  }
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    if (!ambulo__kernels_by_name(names[i])) continue;
+    setenv("AMBULO_ISA", names[i], 1);
+    assert_string_equal(ambulo__instruction_set(), names[i]);
+  }
+  setenv("AMBULO_ISA", "nonsense", 1);
+  const char *chosen = ambulo__instruction_set();
+  unsetenv("AMBULO_ISA");
+  assert_string_equal(chosen, ambulo__instruction_set());
+}
+
+static int test_dispatch_tests(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(sets_are_complete_and_named),
+                                     cmocka_unit_test(the_fastest_is_chosen_unless_told)};
+  return cmocka_run_group_tests_name("mechanics/dispatch", tests, NULL, NULL);
+}
+
+int main(void) {
+  return test_mechanics_tests() + test_dispatch_tests();
 }

@@ -1,5 +1,5 @@
 /* Versions of what is running: from the libraries themselves; parts of summary.json. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include "ambulo/ambulo.h"
 #include "ambulo/tools/tools.h"
 #include "formats/motion_write.h"

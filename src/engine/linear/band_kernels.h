@@ -10,7 +10,7 @@
 #ifndef AMBULO_LINEAR_BAND_KERNELS_H
 #define AMBULO_LINEAR_BAND_KERNELS_H
 
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 #include <stddef.h>
 
 enum { AMBULO__ORDERS = 3 }; /* of a motion: values, rates, accelerations */

@@ -7,11 +7,11 @@
 #define AMBULO__BAND_KERNELS_NAME "baseline"
 #include "linear/band_source.h"
 
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 
 #include <string.h>
 
-/* by the rule of mechanics/dispatch.c; a set without functions was not compiled in */
+/* by the rule of mechanics/mechanics.c; a set without functions was not compiled in */
 const ambulo__band_kernels *ambulo__band_kernels_select(void) {
 #if defined(__x86_64__)
   const char *name = ambulo__instruction_set();

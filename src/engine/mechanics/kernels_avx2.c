@@ -1,5 +1,5 @@
 /* mechanics/kernels_avx2.c - four lanes at a time, on AVX2 with fused multiply-add. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
 #define AMBULO__WIDTH 4

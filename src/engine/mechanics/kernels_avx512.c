@@ -1,5 +1,5 @@
 /* mechanics/kernels_avx512.c - a whole block of eight lanes at a time, on AVX-512. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__FMA__)
 #define AMBULO__WIDTH 8

@@ -1,5 +1,5 @@
 /* mechanics/kernels_baseline.c - two lanes at a time: what every processor of the family has. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 
 #define AMBULO__WIDTH 2
 #define AMBULO__KERNELS ambulo__kernels_baseline

@@ -1,5 +1,5 @@
 /* mechanics/kernels_scalar.c - one lane at a time: the scalar twin that the tests compare. */
-#include "mechanics/kernels.h"
+#include "mechanics/plan.h"
 
 #define AMBULO__WIDTH 1
 #define AMBULO__KERNELS ambulo__kernels_scalar

@@ -6,16 +6,18 @@
  * stay untouched on failure.
  *
  * Reading order: lagrangian.c (the equations as printed), plan.c, plan_layout.h, plan_local.h,
- * plan_steps.h; kernels.h, dispatch.c, kernel_source.h, and from there kernel_wide.h,
+ * plan_steps.c; kernel_source.h, and from there kernel_wide.h,
  * kernel_local_forward.h, kernel_local_reverse.h, kernel_jacobian.h; kernel_contacts.h where
  * the ground's force acts.
  */
-#include <math.h>
-#include <string.h>
-
 #include "ambulo/mechanics.h"
 #include "base/sized.h"
 #include "mechanics/lane_transpose.h"
+#include "mechanics/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Inputs up to this cannot make results overflow. */
 static const double moderate = 1e30;
@@ -263,4 +265,45 @@ ambulo_status ambulo_mechanics_jacobians(ambulo_mechanics *m, int nodes, const d
     }
   }
   return AMBULO_OK;
+}
+
+/* Choosing a kernel set at run time.
+ *
+ * Nothing is cached (the library has no writable globals): callers keep the pointer.
+ */
+
+#if defined(__x86_64__)
+static int runs_avx2(void) {
+  return ambulo__kernels_avx2.forward && __builtin_cpu_supports("avx2") &&
+         __builtin_cpu_supports("fma");
+}
+
+static int runs_avx512(void) {
+  return ambulo__kernels_avx512.forward && __builtin_cpu_supports("avx512f") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("fma");
+}
+#endif
+
+const ambulo__kernels *ambulo__kernels_by_name(const char *name) {
+  if (!name) return NULL;
+  if (!strcmp(name, "scalar")) return &ambulo__kernels_scalar;
+  if (!strcmp(name, "baseline")) return &ambulo__kernels_baseline;
+#if defined(__x86_64__)
+  if (!strcmp(name, "avx2") && runs_avx2()) return &ambulo__kernels_avx2;
+  if (!strcmp(name, "avx512") && runs_avx512()) return &ambulo__kernels_avx512;
+#endif
+  return NULL;
+}
+
+const ambulo__kernels *ambulo__kernels_select(void) {
+  const ambulo__kernels *set = ambulo__kernels_by_name(getenv("AMBULO_ISA"));
+  if (!set) set = ambulo__kernels_by_name("avx512");
+  if (!set) set = ambulo__kernels_by_name("avx2");
+  if (!set) set = &ambulo__kernels_baseline;
+  return set;
+}
+
+const char *ambulo__instruction_set(void) {
+  return ambulo__kernels_select()->name;
 }

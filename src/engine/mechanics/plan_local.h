@@ -110,7 +110,7 @@ typedef struct ambulo__local_step {
   int at, above;       /* slots of the frame and of its parent */
   int virtual_at;      /* eta and u (6): local_turn of the slot in a stem, else a place that the
                           limbs share */
-  int group;           /* of points, in plan_steps.h; -1: none */
+  int group;           /* of points, in plan_layout.h; -1: none */
   double sign;         /* of a revolute joint's axis */
   double length;       /* the offset, if it is along one axis */
 
