@@ -1,6 +1,6 @@
 /* ambulo_solve as a caller meets it. */
-#include "mechanics/kernels.h"
 #include "support/at_nodes.h"
+#include "mechanics/plan.h"
 #include "support/engine_fixture.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
