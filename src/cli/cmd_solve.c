@@ -339,7 +339,7 @@ const ambulo__cli_command ambulo__cli_solve = {
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
                "--start walk/solution.yaml -o finer\n"
                "ambulo solve models/walk_normal.yaml --set gait.steps=3 --set time.duration=1.62 "
-               "--set time.intervals=75 --set trajectory.intervals=51 "
+               "--set time.intervals=192 --set trajectory.intervals=75 "
                "--start walk/solution.yaml --repeat mirrored -o three",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

@@ -91,7 +91,7 @@ void ambulo__cli_print_overview(const ambulo__cli_command *const *commands, int 
   printf("exit codes:\n");
   for (int i = 0; i < EXIT_CODES; i++)
     printf("  %-10s %s\n", exit_codes[i].code, exit_codes[i].meaning);
-  printf("\nexample:\n  ambulo solve models/yardstick_12.yaml -o walk\n");
+  printf("\nexample:\n  ambulo solve models/walk_normal.yaml -o walk\n");
 }
 
 /* ------------------------------------------------------------------- manual */

@@ -107,7 +107,7 @@ judge_pages() {
   count 'functions that the pages name' names_exist
   count 'docs/cli.md: commands' commands_documented
   count 'a walk without ground reaction' \
-    "$out/ambulo" solve models/yardstick_12.yaml -o "$folder/plain" --quiet
+    "$out/ambulo" solve models/walk_without_reaction.yaml -o "$folder/plain" --quiet
   count 'its keys are documented' keys_documented "$folder/plain/summary.json"
   count 'its columns are documented' columns_documented "$folder/plain/motion.csv"
   count 'a walk with ground reaction' \
