@@ -2,6 +2,7 @@
  * the same limits. */
 #include "ambulo/tools/load.h"
 #include "people/stride.h"
+#include "support/at_nodes.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
 #include "support/walker_result.h"
@@ -126,7 +127,7 @@ static void test_limits_hold_in_both_halves(void **state) {
         AMBULO_OK);
     ambulo_options options = ambulo_problem_options(problem);
     assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-    ambulo_verdict verdict = ambulo_result_verdict(result);
+    ambulo_verdict verdict = verdict_at_nodes(result);
     if (verdict != AMBULO_OPTIMAL && verdict != AMBULO_FEASIBLE)
       print_error("%s: %s\n", cases[n], ambulo_verdict_name(verdict));
     assert_true(verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE);

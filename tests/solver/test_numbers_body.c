@@ -40,9 +40,9 @@ static void a_mirrored_step_on_events(void **state) {
   static const setting c = {
       "models/walk_normal.yaml",
       {"time.intervals=30", "trajectory.intervals=9",
-       "devices=[{name: ankle_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: 1, "
+       "devices=[{name: ankle_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: -2, "
        "side: above, smoothing: 4, foot: right, engaged: {from: 0.05, to: 0.65, ramp: 0.08}}, "
-       "{name: ankle_l, kind: spring, coordinate: ankle_angle_l, stiffness: 150, rest: 1, "
+       "{name: ankle_l, kind: spring, coordinate: ankle_angle_l, stiffness: 150, rest: -2, "
        "side: above, smoothing: 4, foot: left, engaged: {from: 0.05, to: 0.65, ramp: 0.08}}, "
        "{name: hip, kind: actuator, coordinate: hip_flexion_r, amount: 4, by: stride, foot: right, "
        "points: [[0, -1], [0.4, 0.5], [0.6, 2]], mirror: true}, "
@@ -96,7 +96,7 @@ static void springs_of_no_stiffness(void **state) {
   static const setting c = {
       "models/walk_normal.yaml",
       {"time.intervals=24", "trajectory.intervals=9",
-       "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 0, rest: 1, "
+       "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 0, rest: -2, "
        "side: above, smoothing: 4, mirror: true}, "
        "{name: band, kind: spring, between: [{point: heel_r}, {point: heel_l}], stiffness: 0, "
        "rest: 0.3, pretension: 2}]"},

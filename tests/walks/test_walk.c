@@ -223,14 +223,14 @@ static void bodies_of_one_shape_walk_alike(void **state) {
   const walk *usual = &((const walk *)*state)[COMFORTABLE];
   static const double bodies[4][2] = {{45.0, 1.75}, {120.0, 1.75}, {75.0, 1.5}, {75.0, 2.0}};
   for (int b = 0; b < 4; b++) {
-    char text[MOST_SETTINGS][TEXT];
-    const char *settings[MOST_SETTINGS] = {text[0], text[1], text[2]};
+    char text[3][TEXT];
+    const char *settings[] = {text[0], text[1], text[2], "solver.optimality_tolerance=1e-4"};
     (void)snprintf(text[0], TEXT, "subject.mass=%g", bodies[b][0]);
     (void)snprintf(text[1], TEXT, "subject.stature=%g", bodies[b][1]);
     (void)snprintf(text[2], TEXT, "gait.speed=%.17g",
                    speeds[COMFORTABLE] * sqrt(bodies[b][1] / 1.75));
     walk w;
-    open_walk(&w, settings, MOST_SETTINGS);
+    open_walk(&w, settings, 4); /* hip rotation is flat at the optimum: a sharp one */
     assert_int_equal(ambulo_result_verdict(w.result), AMBULO_OPTIMAL);
     for (int i = 3; i < w.stride.coordinates; i++) { /* behind the translations */
       double sum = 0.0;

@@ -34,7 +34,7 @@
 static const double allowance = 2e-4;
 
 /* body weights: what the cone's tip is rounded by, and the most by which a force may exceed it */
-static const double cone_smoothing = 2e-5;
+static const double cone_smoothing = 1e-4;
 
 /* body weights: a cone is judged relative to what its contact may carry at the time, at least this.
  * Its slopes turn with the drag: beside an event, where forces are as small as a tolerance, they
