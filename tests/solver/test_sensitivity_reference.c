@@ -9,7 +9,8 @@
  *
  * SIZE is the sum of the derivatives' sizes. A difference counts against that, and against the
  * rounding of the Lagrangian, the sizes of whose parts add up to what stands behind the problem's
- * name.
+ * name. Rows of friction and flight and slopes under a posture have had other laws since, some
+ * files another grid: differences alone compare those (test_differences.c).
  */
 #include "ambulo/tools/load.h"
 #include "ambulo/sensitivity.h"
