@@ -40,9 +40,10 @@ static void a_mirrored_step_on_events(void **state) {
   static const setting c = {
       "models/walk_normal.yaml",
       {"time.intervals=30", "trajectory.intervals=9",
-       "devices=[{name: ankle_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: -2, "
+       "devices=[{name: ankle_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: "
+       "-30, "
        "side: above, smoothing: 4, foot: right, engaged: {from: 0.05, to: 0.65, ramp: 0.08}}, "
-       "{name: ankle_l, kind: spring, coordinate: ankle_angle_l, stiffness: 150, rest: -2, "
+       "{name: ankle_l, kind: spring, coordinate: ankle_angle_l, stiffness: 150, rest: -30, "
        "side: above, smoothing: 4, foot: left, engaged: {from: 0.05, to: 0.65, ramp: 0.08}}, "
        "{name: hip, kind: actuator, coordinate: hip_flexion_r, amount: 4, by: stride, foot: right, "
        "points: [[0, -1], [0.4, 0.5], [0.6, 2]], mirror: true}, "
@@ -96,7 +97,7 @@ static void springs_of_no_stiffness(void **state) {
   static const setting c = {
       "models/walk_normal.yaml",
       {"time.intervals=24", "trajectory.intervals=9",
-       "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 0, rest: -2, "
+       "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 0, rest: 1, "
        "side: above, smoothing: 4, mirror: true}, "
        "{name: band, kind: spring, between: [{point: heel_r}, {point: heel_l}], stiffness: 0, "
        "rest: 0.3, pretension: 2}]"},
@@ -144,7 +145,8 @@ static void a_box_in_both_hands(void **state) {
 static void from_the_floor_to_a_table(void **state) {
   (void)state;
   static const setting c = {"models/lift.yaml",
-                            {"load[box].from=0.85", "load[box].to=2.87", "time.intervals=50"},
+                            {"load[box].from=0.85", "load[box].to=2.87", "time.intervals=50",
+                             "obstacles[table].heading=3"}, /* parallel edges have a kink */
                             {"load[box].mass", "load[box].inertia", "load[box].center[0]",
                              "load[box].center[1]", "load[box].center[2]", "load[box].from",
                              "load[box].to", "load[box].ramp", "subject.mass", "ground.slope"}};
