@@ -50,9 +50,9 @@ static void expect(row_fixture *f, const char *family, const char *subject, cons
   assert_close(got, value, 1e-12);
 }
 
-/* the cone with its tip rounded by 2e-5: mu n of the normal force, t along the surface */
+/* the cone with its tip rounded by 1e-4: mu n of the normal force, t along the surface */
 static double cone(double held, double t) {
-  return held + 2e-5 - hypot(t, 2e-5);
+  return held + 1e-4 - hypot(t, 1e-4);
 }
 
 static void contacts_push_and_are_loaded_at_a_rate(void **state) {
