@@ -66,6 +66,15 @@ KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
   -mtune=skylake-avx512 $(if $(CLANG),,-fschedule-insns -fsched-pressure)
 KERNEL_avx2 := -mavx2 -mfma
 
+# A fault that is left shall end the program, not go on: the library and the program are built to see
+# broken stacks and writes past a known size, tables of addresses are read-only once they are filled in.
+# Kernels have no buffers of a length that an input decides, and their loops are what a solve waits for.
+# (lint-hardening looks at what was built.)
+ifeq ($(VARIANT),release)
+  HARDENED := -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2
+  KERNEL += -fno-stack-protector
+endif
+
 # with ENGINE=1, as `make engine` has it, src/engine is all there is
 ALL_CPPFLAGS = -Iinclude $(if $(ENGINE),,-Isrc -Isrc/files )-Isrc/engine -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) $(MODE) $(FLOATING) -fPIC -fvisibility=hidden
@@ -85,6 +94,7 @@ ifeq ($(shell uname -s),Darwin)
   SHARED := -dynamiclib -install_name @rpath/$(call shared_name,.$(SOVERSION))
 else
   shared_name = libambulo$(if $(ENGINE),_engine).so$(1)
+  HARDENED_LINK = $(if $(filter release,$(VARIANT)),-Wl$(comma)-z$(comma)relro -Wl$(comma)-z$(comma)now -Wl$(comma)-z$(comma)noexecstack)
   # the engine's functions are of version AMBULO_0, those of the tools of AMBULO_TOOLS_0
   VERSIONS = $(OUT)/obj/libambulo.map
   SHARED = -shared -Wl,-soname,$(call shared_name,.$(SOVERSION)) -Wl,--version-script=$(VERSIONS) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
@@ -131,7 +141,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage \
-  lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-hardening lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
   install uninstall clean force
@@ -185,7 +195,7 @@ define RECORD
 @mkdir -p $(@D); echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
 endef
 $(OUT)/obj/flags: force | build/.found
-	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(KERNEL) $(KERNEL_avx512) $(KERNEL_avx2) $(CFLAGS))
+	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(HARDENED) $(KERNEL) $(KERNEL_avx512) $(KERNEL_avx2) $(CFLAGS))
 SOURCES_RECORD := $(OUT)/obj/$(notdir $(ARCHIVE)).sources
 $(SOURCES_RECORD): force
 	$(call RECORD,$(SOURCES) $(LDFLAGS) $(LIBS))
@@ -193,7 +203,7 @@ $(SOURCES_RECORD): force
 # commands are shown with V=1
 quiet = $(if $(V),,@echo '  $(1)'; )
 kernel_flags = $(KERNEL) $(KERNEL_$(patsubst kernels_%,%,$(patsubst band_%,%,$(basename $(notdir $<)))))
-compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
+compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(filter src/%,$<),$(HARDENED)) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
 
 define compile_kernel
 	@mkdir -p $(@D)
@@ -226,12 +236,12 @@ $(OUT)/obj/libambulo.map: $(HEADERS) .setup/symbols.sh
 	@mkdir -p $(@D); .setup/symbols.sh map > $@
 
 $(SHARED_LIBRARY): $(LIB_OBJECTS) $(SOURCES_RECORD) $(VERSIONS)
-	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(HARDENED_LINK) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
 # one variant reports which functions it enters
 TRACER := $(if $(filter way,$(VARIANT)),$(OUT)/obj/tests/support/way.o)
 $(OUT)/ambulo: $(CLI_OBJECTS) $(ARCHIVE) $(TRACER)
-	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(TRACER) $(ARCHIVE) $(LDFLAGS) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(if $(HARDENED_LINK),-pie $(HARDENED_LINK)) $(CLI_OBJECTS) $(TRACER) $(ARCHIVE) $(LDFLAGS) $(LIBS) -o $@
 
 # Tests of a release are compiled at -O1 and linked without what debuggers read: the library is what is
 # fast, and four hundred programs are compiled and linked in half of the time.
@@ -414,7 +424,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols callers mirror headers interface equations reading keys architecture words leftovers
+LINT := format static order size symbols hardening callers mirror headers interface equations reading keys architecture words leftovers
 FORMATTED = $(wildcard include/ambulo/*.h include/ambulo/tools/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
@@ -439,6 +449,9 @@ lint-size:
 lint-symbols: build/.ready-build
 	$(submake) $(SHARED_LIBRARY) $(ARCHIVE)
 	@.setup/lint_symbols.sh $(SHARED_LIBRARY) $(ARCHIVE)
+lint-hardening: build/.ready-build
+	$(submake) all
+	@.setup/lint_hardening.sh $(SHARED_LIBRARY) $(OUT)/ambulo $(SOVERSION)
 lint-callers: build/.ready-build
 	$(submake) $(ARCHIVE) $(OUT)/ambulo
 	@.setup/lint_callers.sh $(OUT)/obj/src
