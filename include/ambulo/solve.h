@@ -337,6 +337,18 @@ AMBULO_API const ambulo_audit *ambulo_result_audit(const ambulo_result *result);
 /* Of results of ambulo_solve and ambulo_audit_point; NULL where none was made. What fails, and what
  * helps, is also one warning among the diagnostics of those. */
 AMBULO_API const ambulo_dense_audit *ambulo_result_dense_audit(const ambulo_result *result);
+/* Two bodies that overlap, whether rows keep them apart or not: capsules of the model that could
+ * meet (ambulo_collision, automatic), boxes in hands, obstacles, and "ground". Looked for at the
+ * nodes and between them, without smoothing. Those that overlap in the rest pose: by how much more.
+ */
+typedef struct ambulo_overlap {
+  const char *one, *other;
+  double depth; /* m, the deepest, more than 0.001 */
+  double time;  /* s, when */
+} ambulo_overlap;
+/* The deepest first, at most 64. */
+AMBULO_API int ambulo_result_overlap_count(const ambulo_result *result);
+AMBULO_API const ambulo_overlap *ambulo_result_overlap(const ambulo_result *result, int index);
 AMBULO_API int ambulo_result_family_count(const ambulo_result *result);
 AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *result, int index);
 AMBULO_API int ambulo_result_iterations(const ambulo_result *result);

@@ -145,11 +145,24 @@ static void print_starts(const ambulo_starts *starts) {
          starts->chosen ? "" : ", the solver's own");
 }
 
+/* the end of the verdict, and a line for each */
+static void print_overlaps(const ambulo_result *result) {
+  int count = ambulo_result_overlap_count(result);
+  if (count > 0)
+    printf("; bodies overlap, by %.3g mm at most", 1e3 * ambulo_result_overlap(result, 0)->depth);
+  printf("\n");
+  for (int i = 0; i < count; i++) {
+    const ambulo_overlap *o = ambulo_result_overlap(result, i);
+    printf("  %s is %.3g mm inside %s at t = %.4g s\n", o->one, 1e3 * o->depth, o->other, o->time);
+  }
+}
+
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   const ambulo_timing *timing = ambulo_result_timing(result);
   printf("problem      %s\n", ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "");
-  printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  printf("verdict      %s: %s", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  print_overlaps(result);
   print_objective(problem, result);
   print_parameters(result);
   print_audit(result);

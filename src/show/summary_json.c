@@ -91,6 +91,21 @@ static void between_nodes(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_close(json, '}');
 }
 
+/* bodies that overlap, by the exact distance */
+static void overlaps(ambulo__json *json, const ambulo_result *result) {
+  ambulo__json_open(json, "overlaps", '[');
+  for (int i = 0; i < ambulo_result_overlap_count(result); i++) {
+    const ambulo_overlap *o = ambulo_result_overlap(result, i);
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_text(json, "one", o->one);
+    ambulo__json_text(json, "other", o->other);
+    ambulo__json_number(json, "mm", 1e3 * o->depth);
+    ambulo__json_number(json, "time", o->time);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+}
+
 static void sensitivity(ambulo__json *json, const ambulo_sensitivity *s) {
   ambulo__json_open(json, NULL, '{');
   ambulo__json_text(json, "name", s->name);
@@ -379,6 +394,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   if (!status) status = ambulo__holds_json(json, problem, result);
   audit(json, result);
   between_nodes(json, result);
+  overlaps(json, result);
   explanation(json, result);
   list_sensitivities(json, options->sensitivities);
   sizes(json, problem);

@@ -234,12 +234,13 @@ static apart from_capsule(double ends[2][3], double other[2][3], const double we
 }
 
 /* in the box's axes, and its slopes back; those by the ends of c, d stay 0 */
-static apart from_box(const ambulo__solid *solid, double ends[2][3], double weight) {
+static apart from_box(const ambulo__solid *solid, const double center[3], double ends[2][3],
+                      double weight) {
   double own[2][3], turned[2][3] = {{0.0}}, out[3] = {0.0}, share[2] = {0.0};
   apart d = {.slope = {{0.0}}};
   for (int end = 0; end < 2; end++) {
     double from[3];
-    for (int i = 0; i < 3; i++) from[i] = ends[end][i] - solid->center[i];
+    for (int i = 0; i < 3; i++) from[i] = ends[end][i] - center[i];
     for (int k = 0; k < 3; k++) own[end][k] = ambulo__dot(solid->axes[k], from);
   }
   ambulo__box_nearest n = ambulo__box_nearest_of(own, solid->half, weight);
@@ -256,11 +257,30 @@ static apart from_box(const ambulo__solid *solid, double ends[2][3], double weig
   return d;
 }
 
+/* m - o */
+static void between_hands(const ambulo__solid *solid, const double *y, int stride,
+                          double middle[3]) {
+  int hands = solid->hand[1] < 0 ? 1 : 2;
+  for (int i = 0; i < 3; i++) {
+    middle[i] = 0.0;
+    for (int k = 0; k < hands; k++) middle[i] += y[(solid->hand[k] + i) * stride] / hands;
+  }
+}
+
 static apart apart_of(const ambulo__solid *solid, const double *y, int stride,
                       const double weight[2]) {
-  double ends[2][3], other[2][3];
+  double ends[2][3], other[2][3], middle[3];
+  if (solid->kind >= AMBULO__SOLID_HELD) between_hands(solid, y, stride, middle);
+  if (solid->kind == AMBULO__SOLID_CARRIED) {
+    for (int i = 0; i < 6; i++) ends[i / 3][i % 3] = middle[i % 3] + solid->ends[0][i % 3];
+    return from_box(solid, solid->center, ends, weight[0]);
+  }
   read_ends(y, solid->one, stride, ends);
-  if (solid->kind == AMBULO__SOLID_BOX) return from_box(solid, ends, weight[0]);
+  if (solid->kind == AMBULO__SOLID_BOX) return from_box(solid, solid->center, ends, weight[0]);
+  if (solid->kind == AMBULO__SOLID_HELD) {
+    for (int i = 0; i < 3; i++) middle[i] += solid->ends[0][i];
+    return from_box(solid, middle, ends, weight[0]);
+  }
   memcpy(other, solid->ends, sizeof other);
   if (solid->kind == AMBULO__SOLID_MOVING) read_ends(y, solid->other, stride, other);
   return from_capsule(ends, other, weight);
@@ -269,7 +289,11 @@ static apart apart_of(const ambulo__solid *solid, const double *y, int stride,
 /* (14.h) */
 double ambulo__solid_value(const ambulo__solid *solid, const double *y, int stride, double *slope) {
   apart d = apart_of(solid, y, stride, solid->weight);
-  for (int i = 0; slope && i < 6; i++) {
+  int hands = solid->kind < AMBULO__SOLID_HELD ? 0 : solid->hand[1] < 0 ? 1 : 2;
+  double sign = solid->kind == AMBULO__SOLID_CARRIED ? 1.0 : -1.0;
+  for (int i = 0; slope && i < 3 * hands; i++)
+    slope[solid->hand[i / 3] + i % 3] += sign * (d.slope[0][i % 3] + d.slope[1][i % 3]) / hands;
+  for (int i = 0; slope && i < 6 && solid->kind != AMBULO__SOLID_CARRIED; i++) {
     slope[solid->one + i] += d.slope[i / 3][i % 3];
     if (solid->kind == AMBULO__SOLID_MOVING) slope[solid->other + i] += d.slope[2 + i / 3][i % 3];
   }
@@ -277,12 +301,20 @@ double ambulo__solid_value(const ambulo__solid *solid, const double *y, int stri
 }
 
 int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID_CHANNELS]) {
-  int moving = solid->kind == AMBULO__SOLID_MOVING;
-  for (int i = 0; i < 6; i++) {
-    channel[i] = solid->one + i;
-    if (moving) channel[6 + i] = solid->other + i;
+  int first[4], points = 0, count = 0;
+  if (solid->kind != AMBULO__SOLID_CARRIED) {
+    first[points++] = solid->one;
+    first[points++] = solid->one + 3;
   }
-  return moving ? 12 : 6;
+  if (solid->kind == AMBULO__SOLID_MOVING) {
+    first[points++] = solid->other;
+    first[points++] = solid->other + 3;
+  }
+  for (int k = 0; k < 2 && solid->kind >= AMBULO__SOLID_HELD; k++) {
+    if (solid->hand[k] >= 0) first[points++] = solid->hand[k];
+  }
+  for (; count < 3 * points; count++) channel[count] = first[count / 3] + count % 3;
+  return count;
 }
 
 double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride) {

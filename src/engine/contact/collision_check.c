@@ -60,7 +60,7 @@ static ambulo_status check_pairs(const ambulo_problem_definition *d, ambulo_diag
   if (c->mode == AMBULO_COLLISION_OFF) return AMBULO_OK;
   if (c->mode != AMBULO_COLLISION_PAIRS && c->mode != AMBULO_COLLISION_AUTOMATIC)
     return REFUSE(list, "unknown collision mode %d", (int)c->mode);
-  if (d->model->capsule_count == 0)
+  if (c->mode == AMBULO_COLLISION_PAIRS && c->pair_count > 0 && d->model->capsule_count == 0)
     return REFUSE(list,
                   "constraints.collision: the model '%s' has no capsules; expected some in the "
                   "model file",

@@ -25,7 +25,7 @@ static const double exact = 1e-9;         /* m^2, weights of a distance */
 
 /* ------------------------------------------------------------------ distance */
 
-static double gap_at(const ambulo__pose *pose, ambulo_capsule_pair pair) {
+double ambulo__capsules_gap(const ambulo__pose *pose, ambulo_capsule_pair pair) {
   const ambulo_capsule *capsule[2] = {&pose->model->capsules[pair.one],
                                       &pose->model->capsules[pair.other]};
   double ends[2][2][3], weight[2] = {exact, exact};
@@ -61,7 +61,7 @@ ambulo_status ambulo__rest_gap(const ambulo_model *model, ambulo_capsule_pair pa
   if (!status) {
     rest(model, q);
     ambulo__pose_at(&pose, q);
-    *gap = gap_at(&pose, pair);
+    *gap = ambulo__capsules_gap(&pose, pair);
   }
   ambulo__pose_free(&pose);
   ambulo__free(allocator, q);
@@ -136,7 +136,7 @@ static void keep_those_that_meet(const ambulo_problem_definition *d, ambulo__pos
     pose_number(d, k, q);
     ambulo__pose_at(pose, q);
     for (int i = met; i < count; i++) {
-      if (gap_at(pose, pairs->kept[i]) > near) continue;
+      if (ambulo__capsules_gap(pose, pairs->kept[i]) > near) continue;
       ambulo_capsule_pair pair = pairs->kept[i];
       for (int j = i; j > met; j--) pairs->kept[j] = pairs->kept[j - 1];
       pairs->kept[met++] = pair;
@@ -178,6 +178,17 @@ static void keep_images(const ambulo_problem_definition *d, ambulo__pairs *pairs
   pairs->too_far -= pairs->kept_count - met;
 }
 
+/* 1: their links are neither neighbours nor both neighbours of one link */
+static int is_far_in_tree(const ambulo_model *m, ambulo_capsule_pair pair) {
+  int a = m->capsules[pair.one].link, b = m->capsules[pair.other].link;
+  for (int l = 0; l < m->link_count; l++) {
+    if (m->links[l].mass > 0.0 && ambulo__links_are_neighbours(m, a, l) &&
+        ambulo__links_are_neighbours(m, l, b))
+      return 0;
+  }
+  return 1;
+}
+
 static ambulo_status keep_automatic(const ambulo_problem_definition *d,
                                     const ambulo_allocator *allocator, ambulo__pairs *pairs) {
   const ambulo_model *m = d->model;
@@ -191,7 +202,7 @@ static ambulo_status keep_automatic(const ambulo_problem_definition *d,
       for (int b = a + 1; b < m->capsule_count; b++) {
         if (ambulo__links_are_neighbours(m, m->capsules[a].link, m->capsules[b].link)) continue;
         ambulo_capsule_pair pair = {a, b};
-        if (gap_at(&pose, pair) >= 0.0)
+        if (ambulo__capsules_gap(&pose, pair) >= 0.0 || is_far_in_tree(m, pair))
           pairs->kept[pairs->kept_count++] = pair;
         else
           pairs->left[pairs->left_count++] = pair;
@@ -233,6 +244,9 @@ void ambulo__pairs_free(const ambulo_allocator *allocator, ambulo__pairs *pairs)
 int ambulo__capsule_is_used(const ambulo_problem_definition *d, int capsule) {
   for (int k = 0; d->collision.mode != AMBULO_COLLISION_OFF && k < d->collision.pair_count; k++) {
     if (d->collision.pairs[k].one == capsule || d->collision.pairs[k].other == capsule) return 1;
+  }
+  for (int h = 0; d->collision.mode != AMBULO_COLLISION_OFF && h < d->hold_count; h++) {
+    if (ambulo__hold_is_box(d, h) && ambulo__hold_meets(d, h, capsule)) return 1;
   }
   for (int o = 0; o < d->obstacle_count; o++) {
     const ambulo_obstacle *obstacle = &d->obstacles[o];

@@ -82,6 +82,16 @@ double ambulo__box_depth(double ends[2][3], const double half[3], double out[3],
  * inside a box where two ways out are equally long.
  *
  *     dc/dD = -D / sqrt(D^2 + W)
+ *
+ * A box in the hands keeps its directions forward, left and up, as its grip does. Its middle is
+ * m = o + (h_1 + h_2) / 2 of the hands (o + h of one). With the slopes c_a, c_b by the ends of the
+ * capsule that keeps clear of it,
+ *
+ *     dc/dh_i = -(c_a + c_b) / 2   of two hands, -(c_a + c_b) of one
+ *
+ * Of the two boxes, of which one is carried, the sum of Minkowski is a box again where they are
+ * parallel, and contains it where they are not: half sizes H_k + sum_j |a_k . b_j| h_j, a_k and b_j
+ * the axes of both. The carried one is its middle there, a segment without length.
  */
 
 enum { AMBULO__SOLID_CHANNELS = 12 };
@@ -89,13 +99,17 @@ enum { AMBULO__SOLID_CHANNELS = 12 };
 typedef enum ambulo__solid_kind {
   AMBULO__SOLID_MOVING,  /* a capsule of another link */
   AMBULO__SOLID_CAPSULE, /* fixed in the world */
-  AMBULO__SOLID_BOX      /* fixed in the world */
+  AMBULO__SOLID_BOX,     /* fixed in the world */
+  AMBULO__SOLID_HELD,    /* a box in the hands, of which a capsule keeps clear */
+  AMBULO__SOLID_CARRIED  /* a box in the hands, which keeps clear of a box fixed in the world */
 } ambulo__solid_kind;
 
 typedef struct ambulo__solid {
   ambulo__solid_kind kind;
   int one, other;    /* first channels of the capsules' ends, 6 each; other: of one that moves */
-  int about;         /* index of the obstacle; -1: a capsule that moves */
+  int hand[2];       /* first channels of the hands of a held box; [1] of one hand: -1 */
+  int about;         /* index of the obstacle; -1: what moves, or the ground */
+  int held;          /* index of the held box plus 1; 0: none */
   double radius;     /* of both together, m */
   double distance;   /* D, m */
   double weight[2];  /* w_i, m^2; [1] of a box: 0 */

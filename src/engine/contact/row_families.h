@@ -241,6 +241,25 @@ ambulo_status ambulo__pairs_create(const ambulo_problem_definition *definition,
                                    const ambulo_allocator *allocator, ambulo__pairs *pairs);
 void ambulo__pairs_free(const ambulo_allocator *allocator, ambulo__pairs *pairs);
 
+/* How far two capsules are apart in a pose, m; negative: they overlap. */
+struct ambulo__pose;
+double ambulo__capsules_gap(const struct ambulo__pose *pose, ambulo_capsule_pair pair);
+
+/* 1: what hands hold has a size: it is a box that keeps clear. */
+int ambulo__hold_is_box(const ambulo_problem_definition *definition, int hold);
+/* 1: the capsule keeps clear of it: it is not of an arm that holds it. */
+int ambulo__hold_meets(const ambulo_problem_definition *definition, int hold, int capsule);
+/* The box without channels and distance; ends[0]: its middle from that of the hands, world, m. */
+ambulo__solid ambulo__solid_of_hold(const ambulo_problem_definition *definition, int hold);
+/* A box fixed in the world, grown by the one that is carried, which keeps `distance` from it. */
+ambulo__solid ambulo__solid_carried(const ambulo__solid *box, const ambulo__solid *fixed,
+                                    double distance);
+/* "collision" of boxes in hands and capsules, boxes of obstacles, the ground. */
+void ambulo__hold_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* 1: all footholds are on one plane, which nothing is below: the ground, as a deep box. */
+int ambulo__ground_is_level(const ambulo_problem_definition *definition);
+ambulo__solid ambulo__solid_of_ground(const ambulo_problem_definition *definition);
+
 /* How far two capsules are apart in the rest pose: every coordinate 0, or as near as its range lets
  * it; m, negative: they overlap. E_MEMORY. */
 ambulo_status ambulo__rest_gap(const ambulo_model *model, ambulo_capsule_pair pair,
@@ -259,7 +278,8 @@ ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *de
                                              ambulo_diagnostics *diagnostics);
 
 /* "collision": of each pair that is listed (m). */
-void ambulo__collision_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+ambulo_status ambulo__collision_rows(const ambulo__gait_context *context,
+                                     const ambulo_allocator *allocator, ambulo__row_table *table);
 /* "obstacle": of each capsule and obstacle (m). */
 void ambulo__obstacle_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "reach": points at places (m). E_PROBLEM: a reach without a node. */

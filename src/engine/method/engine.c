@@ -9,6 +9,7 @@
 #include "problem/callbacks.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
 static double cap_of(const ambulo_problem *problem, int i) {
@@ -103,8 +104,8 @@ static ambulo_status create_parts(ambulo__engine *e) {
 }
 
 /* sizes and roles of the rows, at zero or at the start: *at */
-static ambulo_status classify(ambulo__engine *e, const double **at, ambulo_diagnostics *diagnostics,
-                              ambulo__setup *s) {
+static ambulo_status classify(ambulo__engine *e, ambulo__run *polled, const double **at,
+                              ambulo_diagnostics *diagnostics, ambulo__setup *s) {
   const ambulo_problem *p = s->problem;
   ambulo__row_roles *rows = &e->linearized.rows;
   ambulo__pool *pool = &e->pool;
@@ -114,7 +115,7 @@ static ambulo_status classify(ambulo__engine *e, const double **at, ambulo_diagn
   if (pool->failed) return AMBULO_E_MEMORY;
   if (ambulo__evaluate(e->workspace, e->iterate.x) == AMBULO_OK) *at = e->iterate.x; /* zero */
   ambulo_status status =
-      ambulo__row_roles_create(p, e->workspace, *at, e->run, pool, diagnostics, rows);
+      ambulo__row_roles_create(p, e->workspace, *at, polled, pool, diagnostics, rows);
   if (status) return status;
   s->rows = rows;
   s->n = p->variables;
@@ -126,13 +127,13 @@ static ambulo_status classify(ambulo__engine *e, const double **at, ambulo_diagn
 }
 
 /* the set-up is written here, and by nobody else */
-static ambulo_status set_up(ambulo__engine *e, const ambulo_problem *problem, const double *start,
-                            ambulo_diagnostics *diagnostics) {
+static ambulo_status set_up(ambulo__engine *e, const ambulo_problem *problem, ambulo__run *polled,
+                            const double *start, ambulo_diagnostics *diagnostics) {
   ambulo__setup *s = ambulo__pool_blocks(&e->pool, 1, sizeof *s);
   if (!s) return AMBULO_E_MEMORY;
   s->problem = problem;
   e->setup = s;
-  ambulo_status status = classify(e, &start, diagnostics, s);
+  ambulo_status status = classify(e, polled, &start, diagnostics, s);
   if (!status) status = create_parts(e);
   if (status) return status;
   s->objective_scale = ambulo__metric_objective_scale(&e->linearized.metric, e->workspace);
@@ -150,13 +151,28 @@ ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double 
   ambulo__pool_init(&e->pool, &own);
   e->run = run;
   ambulo_status status = ambulo_workspace_create(problem, &own, &e->workspace);
-  if (!status) status = set_up(e, problem, start, diagnostics);
+  if (!status) ambulo__near_begin(e->workspace, start);
+  if (!status) status = set_up(e, problem, run, start, diagnostics);
   if (status) {
     ambulo__engine_free(e);
     return status;
   }
   *engine = e;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo__engine_renew(ambulo__engine *e, const double *start) {
+  const ambulo_problem *problem = e->setup->problem;
+  ambulo_allocator allocator = e->pool.allocator;
+  ambulo_workspace *workspace = e->workspace;
+  ambulo__run *run = e->run;
+  ambulo__pool_clear(&e->pool);
+  memset(e, 0, sizeof *e);
+  ambulo__pool_init(&e->pool, &allocator);
+  e->workspace = workspace;
+  e->run = run;
+  workspace->has_values = workspace->has_jacobian = 0;
+  return set_up(e, problem, NULL, start, NULL); /* not to be stopped half-way */
 }
 
 void ambulo__engine_free(ambulo__engine *e) {

@@ -103,6 +103,9 @@ typedef struct ambulo__engine {
 ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double *start,
                                     const ambulo_allocator *allocator, ambulo__run *run,
                                     ambulo_diagnostics *diagnostics, ambulo__engine **engine);
+/* The same engine for the rows that are near now (near.c); memory of its pool is gone. E_MEMORY:
+ * the engine can only be freed. */
+ambulo_status ambulo__engine_renew(ambulo__engine *engine, const double *start);
 void ambulo__engine_free(ambulo__engine *engine); /* accepts NULL */
 
 #endif

@@ -54,7 +54,7 @@ static ambulo_status solve(ambulo__engine *e, ambulo__stage stage, ambulo__stopp
   return ambulo__auglag(e, stopping, x, ending);
 }
 
-ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__stage stage, double *x) {
+ambulo_status ambulo__pipeline_of_set(ambulo__engine *e, ambulo__stage stage, double *x) {
   const ambulo_problem *p = e->setup->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   ambulo__stopping stopping = ambulo__stopping_begin(stage == AMBULO__COARSE);

@@ -11,8 +11,15 @@ typedef enum ambulo__stage {
 } ambulo__stage;
 
 /* From x (in and out); run->ending says why it ended. The last multipliers stay in the engine's
- * iterate, the last point of AUGLAG in engine->reached. */
+ * iterate, the last point of AUGLAG in engine->reached. Rows between bodies join as they come near
+ * (near.c): the engine may then be another inside. */
 ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__stage stage, double *x);
+/* The same with the rows that the engine has. */
+ambulo_status ambulo__pipeline_of_set(ambulo__engine *engine, ambulo__stage stage, double *x);
+/* Marks the rows between bodies that are far apart at x: workspace->far. */
+void ambulo__near_begin(ambulo_workspace *workspace, const double *x);
+/* Gives the engine every row; x: finite there. E_MEMORY; E_LIMIT: the run was stopped. */
+ambulo_status ambulo__near_all(ambulo__engine *engine, const double *x);
 
 /* ------------------------------------------------------------------- its parts */
 

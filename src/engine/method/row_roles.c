@@ -30,10 +30,12 @@ typedef struct lists {
   int equalities, borders, inequalities;
 } lists;
 
-static void classify(const ambulo_problem *p, const int *rank, lists *l, ambulo__row_roles *out) {
+static void classify(const ambulo_problem *p, const unsigned char *far, const int *rank, lists *l,
+                     ambulo__row_roles *out) {
   out->regular = 1;
   out->dropped = 0;
   for (int r = 0; r < p->rows; r++) {
+    if (far[r]) continue;
     int host = ambulo__row_host(p, r);
     if (p->table.rows[r].relation == AMBULO_NOT_NEGATIVE) {
       l->inequality[l->inequalities++] = r;
@@ -60,8 +62,8 @@ ambulo_status ambulo__row_roles_create(const ambulo_problem *p, ambulo_workspace
   ambulo_status status =
       ambulo__presolve_rank(p, workspace, start, run, pool, diagnostics, out->rank);
   if (status) return status;
-  classify(p, out->rank, &l, out);
-  ambulo__poll poll = ambulo__run_poller(run);
+  classify(p, workspace->far, out->rank, &l, out);
+  ambulo__poll poll = run ? ambulo__run_poller(run) : (ambulo__poll){NULL, NULL};
   status = ambulo__sparse_rows_create(p, l.equality, l.equalities, &poll, pool, &out->equality);
   if (!status)
     status = ambulo__sparse_rows_create(p, l.border, l.borders, &poll, pool, &out->border);
@@ -332,7 +334,7 @@ ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *w
     rank[r] = AMBULO__ROW_INDEPENDENT;
     if (p->table.rows[r].relation == AMBULO_EQUAL) list[count++] = r;
   }
-  ambulo__poll poll = ambulo__run_poller(run);
+  ambulo__poll poll = run ? ambulo__run_poller(run) : (ambulo__poll){NULL, NULL};
   ambulo_status status = ambulo__sparse_rows_create(p, list, count, &poll, pool, &s);
   if (status) return status;
   double *x0 = x + p->variables;

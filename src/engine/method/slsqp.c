@@ -18,6 +18,7 @@
 #include "method/equalities.h"
 #include "method/model_step.h"
 #include "method/parameters.h"
+#include "method/pipeline.h"
 #include "method/point.h"
 
 #include <math.h>
@@ -247,6 +248,8 @@ static ambulo_status calls(direct *d, double *x) {
 
 ambulo_status ambulo__solve_slsqp(ambulo__engine *e, ambulo_diagnostics *diagnostics, double *x,
                                   const char **message) {
+  ambulo_status near = ambulo__near_all(e, x);
+  if (near) return near;
   const ambulo__setup *s = e->setup;
   double n = s->n, m = s->equalities + s->borders + s->inequalities;
   if (8.0 * (4.0 * n * n + 4.0 * m * n) > AMBULO__DIRECT_MEMORY) /* roughly */

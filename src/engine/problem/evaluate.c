@@ -112,6 +112,7 @@ static void evaluate_rows(ambulo_workspace *workspace) {
   for (int o = 0; o < runs->odd_count; o++) {
     int r = runs->odd[o];
     const ambulo__table_row *row = &p->table.rows[r];
+    if (workspace->leaves_far_out && workspace->far[r]) continue;
     workspace->row_value[r] =
         row->user >= 0 ? user_row_value(workspace, r) : mixed_row_value(workspace, row);
   }

@@ -115,6 +115,8 @@ struct ambulo_workspace {
   double objective;
   double *user_gradient;  /* [user row instances][channels]: slopes of user rows */
   int *user_slot;         /* [rows]: index into user_gradient, or -1 */
+  unsigned char *far;     /* [rows]: 1 of rows between bodies that are far apart (method/near.c) */
+  int leaves_far_out;     /* values of these are not those of x, but earlier ones */
   double *node_state;     /* scratch for callbacks: [2][channels] */
   double *motion_scratch; /* ... for one gradient by q, qd, qdd: [3][d] */
   double *other_scratch;  /* ... for what devices and hands add to it */

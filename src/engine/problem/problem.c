@@ -124,7 +124,9 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   }
   ambulo__limit_rows(&context, &p->table);
   ambulo__passive_rows(&context, &p->table);
-  ambulo__collision_rows(&context, &p->table);
+  status = ambulo__collision_rows(&context, &p->allocator, &p->table);
+  if (status) return status;
+  ambulo__hold_rows(&context, &p->table);
   ambulo__obstacle_rows(&context, &p->table);
   status = ambulo__reach_rows(&context, &p->table, diagnostics);
   if (status) return status;

@@ -79,7 +79,9 @@ ambulo_status ambulo__workspace_create_for_values(const ambulo_problem *problem,
   w->problem = problem;
   w->channel_count = ambulo__channel_count(&problem->channels);
   w->user_slot = ambulo__alloc(&own, (size_t)problem->rows, sizeof *w->user_slot);
-  ambulo_status status = w->user_slot ? allocate(w, 0, VALUE_ARRAYS) : AMBULO_E_MEMORY;
+  w->far = ambulo__alloc(&own, (size_t)problem->rows, sizeof *w->far);
+  ambulo_status status =
+      w->user_slot && w->far ? allocate(w, 0, VALUE_ARRAYS) : AMBULO_E_MEMORY;
   if (status) {
     ambulo_workspace_free(w);
     return status;
@@ -111,6 +113,7 @@ void ambulo_workspace_free(ambulo_workspace *w) {
   ambulo_allocator a = w->allocator;
   for (int i = 0; i < ARRAYS; i++) ambulo__free_aligned(&a, w->owned[i]);
   ambulo__free(&a, w->user_slot);
+  ambulo__free(&a, w->far);
   ambulo__free(&a, w);
 }
 
@@ -135,6 +138,8 @@ static double curved_rows(const ambulo_problem *p) {
   const ambulo_problem_definition *d = &p->definition;
   double per_node = d->collision.pair_count;
   if (d->ground_reaction.friction >= 0.0) per_node += p->channels.slots;
+  for (int h = 0; h < d->hold_count; h++)
+    per_node += p->model->capsule_count + d->obstacle_count + 1;
   for (int o = 0; o < d->obstacle_count; o++)
     per_node += d->obstacles[o].capsules ? d->obstacles[o].capsule_count : p->model->capsule_count;
   return per_node * p->nodes;

@@ -55,8 +55,10 @@ static double air_asked_for(const ambulo_problem *p, const ambulo_violation *v, 
   const ambulo_problem_definition *d = &p->definition;
   double allowance = ambulo__passing_allowance(d);
   *obstacle = -1;
+  int touches = !strcmp(v->detail, "ground"); /* boxes in hands stand on it, and on obstacles */
+  for (int o = 0; o < d->obstacle_count; o++) touches |= !strcmp(d->obstacles[o].name, v->detail);
   if (!strcmp(v->family, ambulo__row_family(AMBULO__KIND_COLLISION)))
-    return d->collision.margin + allowance;
+    return touches ? 0.0 : d->collision.margin + allowance;
   if (strcmp(v->family, ambulo__row_family(AMBULO__KIND_OBSTACLE)) != 0) return -1.0;
   for (int o = 0; o < d->obstacle_count; o++) {
     if (!strcmp(d->obstacles[o].name, v->detail)) *obstacle = o;

@@ -16,6 +16,8 @@
 static const char *detail_of(const ambulo__dense *dense, const ambulo__table_row *row) {
   const ambulo__solid *solid = ambulo__row_solid_of(&dense->fine->table, row);
   int about = solid ? solid->about : -1;
+  if (solid && solid->kind == AMBULO__SOLID_HELD)
+    return dense->problem->definition.holds[solid->held - 1].name;
   return about < 0 ? row->detail : dense->problem->definition.obstacles[about].name;
 }
 
@@ -28,6 +30,12 @@ static double missed(const ambulo__dense *dense, int r) {
   return fmax(0.0, value - ambulo__flight_room(&fine->definition, &fine->table, row));
 }
 
+static const char *subject_of(const ambulo__dense *dense, const ambulo__table_row *row) {
+  const ambulo__solid *solid = ambulo__row_solid_of(&dense->fine->table, row);
+  if (!solid || solid->kind != AMBULO__SOLID_CARRIED) return row->subject;
+  return dense->problem->definition.holds[solid->held - 1].name;
+}
+
 static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dense_visitor visit,
                       void *user) {
   const ambulo_problem *fine = dense->fine;
@@ -35,7 +43,7 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
   const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
   ambulo__dense_sample sample = {.rule = index,
                                  .family = row->family,
-                                 .subject = row->subject,
+                                 .subject = subject_of(dense, row),
                                  .detail = detail_of(dense, row),
                                  .unit = row->unit,
                                  .time = row->time,

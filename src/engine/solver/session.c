@@ -7,6 +7,8 @@
  */
 #include "solver/session.h"
 
+#include "base/alloc.h"
+
 #include "base/arithmetic.h"
 #include "base/machine.h"
 #include "base/sized.h"
@@ -131,7 +133,7 @@ ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_o
 static const double start_advantage = 1e-6;
 
 static ambulo_status create_one(ambulo__candidate *c, ambulo__engine *e) {
-  c->x = ambulo__pool_doubles(&e->pool, (size_t)e->setup->n);
+  c->x = ambulo__alloc(&e->pool.allocator, (size_t)e->setup->n, sizeof *c->x);
   c->violation = c->objective = HUGE_VAL;
   return c->x ? AMBULO_OK : AMBULO_E_MEMORY;
 }
@@ -141,6 +143,12 @@ ambulo_status ambulo__candidates_create(ambulo__candidates *c, ambulo__engine *e
   c->tolerance = e->run->options->feasibility_tolerance;
   ambulo_status status = create_one(&c->start, e);
   return status ? status : create_one(&c->found, e);
+}
+
+void ambulo__candidates_free(ambulo__candidates *c, const ambulo_allocator *allocator) {
+  ambulo_allocator a = ambulo__allocator_or_default(allocator);
+  ambulo__free(&a, c->start.x);
+  ambulo__free(&a, c->found.x);
 }
 
 double ambulo__violation_at(ambulo__engine *e, const double *x) {
@@ -311,7 +319,8 @@ static void end_history(ambulo__session *s) {
 
 static ambulo_status look_between(ambulo__session *s) {
   int in_time = !ambulo__run_late(&s->run);
-  ambulo_status status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
+  ambulo_status status = ambulo__overlaps_find(s->problem, s->allocator, s->result);
+  if (!status) status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
                                              s->allocator, s->result);
   if (status) return status;
   return ambulo__dense_advise(s->problem, in_time, s->allocator, s->diagnostics, s->result);
@@ -376,6 +385,7 @@ ambulo_status ambulo__session_end(ambulo__session *s, ambulo_status status,
                         "cannot allocate memory to solve the problem; it takes about %.3g MB",
                         1e-6 * ambulo_problem_memory(s->problem).solve);
   ambulo__engine_free(s->engine);
+  ambulo__candidates_free(&s->candidates, s->allocator);
   if (status) {
     ambulo_result_free(s->result);
     return ambulo__conclude(s->diagnostics, s->errors, status, NULL);

@@ -117,7 +117,7 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
 
 /* -------------------------------------------------- collision, reach and obstacles */
 
-static const double usual_margin = 0.01; /* m */
+static const double usual_margin = 0.01; /* m, of obstacles */
 
 enum { MOST_ITEMS = 10000 };
 
@@ -191,9 +191,17 @@ static void read_pairs(ambulo__problem_reader *reader, const ambulo__yaml_node *
 static void read_collision(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   ambulo_collision *collision = &reader->definition.collision;
   if (!section) return;
-  collision->margin = usual_margin;
+  if (ambulo__yaml_is(section, AMBULO__YAML_SCALAR)) {
+    read_pairs(reader, section, collision); /* a word alone */
+    return;
+  }
   ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
   read_pairs(reader, ambulo__yaml_get(section, "pairs"), collision);
+  if (collision->mode == AMBULO_COLLISION_AUTOMATIC && reader->model->capsule_count == 0)
+    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
+                             "constraints.collision: the model '%s' has no capsules; expected some "
+                             "in the model file",
+                             reader->model->name);
   ambulo__yaml_close(section);
 }
 
