@@ -179,7 +179,7 @@ static void cones_bend_the_metric(void **state) {
     ambulo__metric_fill(metric, w, 1.0, h);
     ambulo__band_multiply(h, d, hd);
     for (int j = 0; j < f.n; j++) got -= d[j] * hd[j];
-    ambulo__metric_add_cones(metric, w, rows, lambda, h);
+    ambulo__metric_add_bends(metric, w, rows, lambda, h);
     ambulo__band_multiply(h, d, hd);
     for (int j = 0; j < f.n; j++) got += d[j] * hd[j];
     assert_true(want > 0.0);

@@ -24,7 +24,7 @@ static double cut(double x) {
 }
 
 static ambulo__segment_nearest at(const system *m, double s, double t) {
-  ambulo__segment_nearest n = {.at = {s, t}};
+  ambulo__segment_nearest n = {.at = {s, t}, .square = {m->a, m->c, m->b}};
   for (int i = 0; i < 3; i++) n.e[i] = m->r[i] + s * m->u[i] - t * m->v[i];
   n.value = ambulo__dot(n.e, n.e) + m->weight[0] * (s - 0.5) * (s - 0.5) +
             m->weight[1] * (t - 0.5) * (t - 0.5);
@@ -103,7 +103,7 @@ static int crossings(const double a[3], const double u[3], const double half[3],
 
 /* the minimum of the parabola that holds around `middle`, of all s */
 static double parabola(const double a[3], const double u[3], const double half[3], double weight,
-                       double middle) {
+                       double middle, double *half_curvature) {
   double square = weight, linear = 0.5 * weight;
   for (int k = 0; k < 3; k++) {
     double sigma = side(a[k] + middle * u[k], half[k]);
@@ -111,6 +111,7 @@ static double parabola(const double a[3], const double u[3], const double half[3
     square += u[k] * u[k];
     linear -= u[k] * (a[k] - sigma * half[k]);
   }
+  *half_curvature = square;
   return linear / square;
 }
 
@@ -122,7 +123,7 @@ ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[
   int count = crossings(a, u, half, breaks);
   for (int i = 0; i <= count; i++) {
     double to = i < count ? breaks[i] : 1.0;
-    double s = parabola(a, u, half, weight, 0.5 * (from + to));
+    double s = parabola(a, u, half, weight, 0.5 * (from + to), &n.square);
     if (s <= to) {
       n.at = fmax(s, from);
       break;
@@ -215,6 +216,8 @@ static void read_ends(const double *y, int first, int stride, double ends[2][3])
 typedef struct apart {
   double value;
   double slope[4][3]; /* a, b; c, d */
+  double e[3], at[2]; /* of a box: o, s, and no t */
+  double square[3];   /* A, C, B */
 } apart;
 
 static void spread(const double e[3], double size, double at, double sign, double slope[2][3]) {
@@ -228,6 +231,9 @@ static apart from_capsule(double ends[2][3], double other[2][3], const double we
   apart d = {.slope = {{0.0}}};
   ambulo__segment_nearest n = ambulo__segments_nearest(ends, other, weight);
   d.value = sqrt(n.value);
+  memcpy(d.e, n.e, sizeof d.e);
+  memcpy(d.at, n.at, sizeof d.at);
+  memcpy(d.square, n.square, sizeof d.square);
   spread(n.e, d.value, n.at[0], 1.0, d.slope);
   spread(n.e, d.value, n.at[1], -1.0, d.slope + 2);
   return d;
@@ -254,6 +260,11 @@ static apart from_box(const ambulo__solid *solid, const double center[3], double
     }
   }
   d.value = size - depth;
+  d.at[0] = n.at;
+  d.square[0] = n.square;
+  for (int i = 0; i < 3; i++) {
+    for (int k = 0; k < 3; k++) d.e[i] += solid->axes[k][i] * n.o[k];
+  }
   return d;
 }
 
@@ -298,6 +309,35 @@ double ambulo__solid_value(const ambulo__solid *solid, const double *y, int stri
     if (solid->kind == AMBULO__SOLID_MOVING) slope[solid->other + i] += d.slope[2 + i / 3][i % 3];
   }
   return d.value - sqrt(solid->distance * solid->distance + ambulo__solid_excess(solid));
+}
+
+/* r = a (-e, e, b e, -b e): ends a, b; c, d */
+static void bend(const double e[3], double a, double b, double row[AMBULO__SOLID_CHANNELS]) {
+  for (int i = 0; i < 3; i++) {
+    row[i] = -a * e[i];
+    row[3 + i] = a * e[i];
+    row[6 + i] = b * e[i];
+    row[9 + i] = -b * e[i];
+  }
+}
+
+int ambulo__solid_curvature(const ambulo__solid *solid, const double *y, int stride,
+                            double rows[2][AMBULO__SOLID_CHANNELS]) {
+  memset(rows, 0, 2 * sizeof *rows);
+  apart d = apart_of(solid, y, stride, solid->weight);
+  int s_moves = d.at[0] > 0.0 && d.at[0] < 1.0, t_moves = d.at[1] > 0.0 && d.at[1] < 1.0;
+  double a = d.square[0], c = d.square[1], b = d.square[2], size = sqrt(ambulo__dot(d.e, d.e));
+  int moving = solid->kind == AMBULO__SOLID_MOVING;
+  if (solid->kind == AMBULO__SOLID_CARRIED || !(size > 0.0) || (!s_moves && !t_moves)) return 0;
+  if (!t_moves) {
+    bend(d.e, 1.0 / sqrt(a * size), 0.0, rows[0]);
+    return 1;
+  }
+  if (moving) bend(d.e, 0.0, 1.0 / sqrt(c * size), rows[0]);
+  if (!s_moves) return moving;
+  double root = sqrt(c / ((a * c - b * b) * size));
+  bend(d.e, root, moving ? root * b / c : 0.0, rows[moving]);
+  return 1 + moving;
 }
 
 int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID_CHANNELS]) {

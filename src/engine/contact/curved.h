@@ -28,6 +28,7 @@ typedef struct ambulo__segment_nearest {
   double at[2]; /* s, t */
   double e[3];  /* x(s) - y(t), m */
   double value; /* V, m^2 */
+  double square[3]; /* A, C, B: half the second derivatives by s, by t; less that by both, m^2 */
 } ambulo__segment_nearest;
 
 /* one[0], one[1]: a, b; other: c, d; weight: w, v. They are only read. */
@@ -56,6 +57,7 @@ typedef struct ambulo__box_nearest {
   double at;    /* s */
   double o[3];  /* o(x(s)), m */
   double value; /* V, m^2 */
+  double square; /* half the second derivative by s, m^2 */
 } ambulo__box_nearest;
 
 /* ends[0], ends[1]: a, b in the box's axes, m; half: h >= 0; weight: w. */
@@ -127,6 +129,10 @@ double ambulo__solid_excess(const ambulo__solid *solid);
 double ambulo__solid_value(const ambulo__solid *solid, const double *y, int stride, double *slope);
 /* The channels on which it stands: returns how many of channel[AMBULO__SOLID_CHANNELS]. */
 int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID_CHANNELS]);
+/* Rows of as many numbers as there are channels, in their order: sum of r r' is the part of -d2c/dy2
+ * named above. Returns how many of rows[2]. */
+int ambulo__solid_curvature(const ambulo__solid *solid, const double *y, int stride,
+                            double rows[2][AMBULO__SOLID_CHANNELS]);
 /* What air there is between the two, margin left out, without weights, m; negative: so far is one
  * inside the other. */
 double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride);
@@ -308,6 +314,18 @@ static inline int ambulo__curved_channels(const ambulo__curved *row,
                         is_spin ? spin->center : apart->to};
   for (int i = 0; i < 9; i++) channel[i] = first[i / 3] + i % 3;
   return 9;
+}
+/* Rows of slopes by the row's channels, in their order: sum of r r' is the part of -d2c/dy2 that is
+ * not negative and large. Returns how many of rows[2]; 0 of forms that have none. */
+static inline int ambulo__curved_curvature(const ambulo__curved *row, const double *y, int stride,
+                                           double rows[2][AMBULO__CURVED_CHANNELS]) {
+  if (row->form == AMBULO__CURVED_SOLID)
+    return ambulo__solid_curvature(&row->of.solid, y, stride, rows);
+  if (row->form != AMBULO__CURVED_CONE) return 0;
+  double bend[2][3];
+  ambulo__cone_curvature(&row->of.cone, y, stride, bend);
+  for (int i = 0; i < 6; i++) rows[i / 3][i % 3] = bend[i / 3][i % 3];
+  return 2;
 }
 
 #endif

@@ -333,8 +333,8 @@ void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspa
     add_accelerations(metric, workspace, k, AMBULO__ACCELERATION_WEIGHT, h);
 }
 
-/* (P.2c) sum of -lambda scale d2c/dx2, forces taken as linear */
-void ambulo__metric_add_cones(ambulo__metric *metric, const ambulo_workspace *workspace,
+/* (P.2c) sum of -lambda scale d2c/dx2, what the rows stand on taken as linear */
+void ambulo__metric_add_bends(ambulo__metric *metric, const ambulo_workspace *workspace,
                               const ambulo__sparse_rows *rows, const double *lambda,
                               ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
@@ -342,20 +342,21 @@ void ambulo__metric_add_cones(ambulo__metric *metric, const ambulo_workspace *wo
   for (int i = 0; i < rows->count; i++) {
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
     const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
-    double multiplier = -lambda[i] * rows->scale[i], bend[2][3];
-    if (!(multiplier > 0.0) || !curved || curved->form != AMBULO__CURVED_CONE) continue;
+    double multiplier = -lambda[i] * rows->scale[i], bend[2][AMBULO__CURVED_CHANNELS];
+    int channel[AMBULO__CURVED_CHANNELS];
+    if (!(multiplier > 0.0) || !curved) continue;
     const double *y =
         workspace->channel + ambulo__lane_index(row->node, workspace->channel_count, 0);
-    ambulo__cone_curvature(&curved->of.cone, y, AMBULO__LANES, bend);
-    for (int j = 0; j < 2; j++) {
+    int count = ambulo__curved_curvature(curved, y, AMBULO__LANES, bend);
+    int channels = ambulo__curved_channels(curved, channel);
+    for (int j = 0; j < count; j++) {
       double *g = row_at(metric, j, width);
-      for (int k = 0; k < 3; k++)
-        add_motion(metric, workspace, row->node, curved->of.cone.force + k,
-                   sqrt(multiplier) * bend[j][k], g);
+      for (int k = 0; k < channels; k++)
+        add_motion(metric, workspace, row->node, channel[k], sqrt(multiplier) * bend[j][k], g);
     }
     const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[row->node];
     const double *const b[] = {point->weight[0], point->weight[1], point->weight[2]};
-    ambulo__spread_rows(&metric->spread, 2, metric->stride, metric->rows, point->span, b,
+    ambulo__spread_rows(&metric->spread, count, metric->stride, metric->rows, point->span, b,
                         ambulo__node_first(p, row->node), h);
   }
 }

@@ -91,7 +91,7 @@ int ambulo__metric_diagonals(const ambulo_problem *problem);
 /* H0 at the point of the workspace (ambulo__evaluate_jacobian), without mu. */
 /* h += what the cones of friction (contact/curved.h) bend the Lagrangian by, of rows with the
  * multipliers lambda [rows->count], at the point of the last fill. */
-void ambulo__metric_add_cones(ambulo__metric *metric, const ambulo_workspace *workspace,
+void ambulo__metric_add_bends(ambulo__metric *metric, const ambulo_workspace *workspace,
                               const ambulo__sparse_rows *rows, const double *lambda,
                               ambulo__band *h);
 void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,

@@ -84,7 +84,7 @@ int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
   at->assembled = 0;
   if (!is_near(e)) {
     ambulo__metric_fill(&at->metric, e->workspace, e->setup->objective_scale, &at->base);
-    ambulo__metric_add_cones(&at->metric, e->workspace, &e->setup->rows->inequality,
+    ambulo__metric_add_bends(&at->metric, e->workspace, &e->setup->rows->inequality,
                              e->iterate.lambda, &at->base);
     ambulo__band_raise_diagonal(&at->base, AMBULO__METRIC_ROUNDING);
     memcpy(at->filled_at, e->workspace->x, (size_t)e->setup->n * sizeof *at->filled_at);

@@ -115,7 +115,7 @@ TABLE("constraints.collision.pairs", capsule_pair);
 static const char *const collisions[] = {"off", "pairs", "automatic"};
 #define OF ambulo_collision
 static const ambulo__member collision[] = {
-    {CHOICE(NULL, mode, collisions, AMBULO_COLLISION_OFF, AMBULO_COLLISION_OFF)},
+    {CHOICE(NULL, mode, collisions, AMBULO_COLLISION_OFF, AMBULO_COLLISION_AUTOMATIC)},
     {ITEMS("pairs", pairs, pair_count, capsule_pair_size, capsule_pair), APART},
     {COUNTER(pair_count)},
     {NUMBER("margin", margin, 0.0, 1.0, 0.0), LENGTH, AMBULO__SHORT_LENGTH,
