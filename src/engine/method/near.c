@@ -23,7 +23,7 @@
 #include <string.h>
 
 enum { ROUNDS = 4 };
-static const double wide = 0.05;    /* m */
+static const double wide = 0.02;    /* m */
 static const double narrow = 0.003; /* m */
 
 /* where obstacles are without a box that hands carry past them, every row is in the set */
