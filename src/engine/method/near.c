@@ -26,11 +26,8 @@ enum { ROUNDS = 4 };
 static const double wide = 0.02;    /* m */
 static const double narrow = 0.003; /* m */
 
-/* where obstacles are without a box that hands carry past them, every row is in the set */
 static int may_be_far(const ambulo_problem *p, int row) {
-  const ambulo_problem_definition *d = &p->definition;
-  return p->table.rows[row].kind == AMBULO__KIND_COLLISION &&
-         (d->obstacle_count == 0 || d->hold_count > 0);
+  return p->table.rows[row].kind == AMBULO__KIND_COLLISION;
 }
 
 void ambulo__near_begin(ambulo_workspace *w, const double *x) {
