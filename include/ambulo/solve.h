@@ -215,6 +215,16 @@ typedef struct ambulo_dense_family {
   const char *advice; /* in words; "" where it holds, and for points that are no solutions */
 } ambulo_dense_family;
 
+/* Two bodies that overlap, whether rows keep them apart or not: capsules of the model that could
+ * meet (ambulo_collision, automatic), boxes in hands, obstacles, and "ground". Looked for at the
+ * nodes and between them, without smoothing. Those that overlap in the rest pose: by how much more.
+ */
+typedef struct ambulo_overlap {
+  const char *one, *other;
+  double depth; /* m, the deepest, more than 0.001 */
+  double time;  /* s, when */
+} ambulo_overlap;
+
 typedef struct ambulo_dense_audit {
   int samples; /* of each interval; 0: there is no finer grid, see `reason` */
   const ambulo_dense_family *families;
@@ -229,6 +239,8 @@ typedef struct ambulo_dense_audit {
   const char *summary; /* all of it in one sentence; "" when every family holds, or the point is no
                           solution at the nodes either */
   const char *reason;  /* why there is no finer grid; "" when there is one */
+  const ambulo_overlap *overlaps;
+  int overlap_count; /* the deepest first, at most 64 */
 } ambulo_dense_audit;
 
 /* ------------------------------------------------- why there is no solution */
@@ -337,18 +349,6 @@ AMBULO_API const ambulo_audit *ambulo_result_audit(const ambulo_result *result);
 /* Of results of ambulo_solve and ambulo_audit_point; NULL where none was made. What fails, and what
  * helps, is also one warning among the diagnostics of those. */
 AMBULO_API const ambulo_dense_audit *ambulo_result_dense_audit(const ambulo_result *result);
-/* Two bodies that overlap, whether rows keep them apart or not: capsules of the model that could
- * meet (ambulo_collision, automatic), boxes in hands, obstacles, and "ground". Looked for at the
- * nodes and between them, without smoothing. Those that overlap in the rest pose: by how much more.
- */
-typedef struct ambulo_overlap {
-  const char *one, *other;
-  double depth; /* m, the deepest, more than 0.001 */
-  double time;  /* s, when */
-} ambulo_overlap;
-/* The deepest first, at most 64. */
-AMBULO_API int ambulo_result_overlap_count(const ambulo_result *result);
-AMBULO_API const ambulo_overlap *ambulo_result_overlap(const ambulo_result *result, int index);
 AMBULO_API int ambulo_result_family_count(const ambulo_result *result);
 AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *result, int index);
 AMBULO_API int ambulo_result_iterations(const ambulo_result *result);

@@ -147,12 +147,12 @@ static void print_starts(const ambulo_starts *starts) {
 
 /* the end of the verdict, and a line for each */
 static void print_overlaps(const ambulo_result *result) {
-  int count = ambulo_result_overlap_count(result);
-  if (count > 0)
-    printf("; bodies overlap, by %.3g mm at most", 1e3 * ambulo_result_overlap(result, 0)->depth);
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  int count = dense ? dense->overlap_count : 0;
+  if (count > 0) printf("; bodies overlap, by %.3g mm at most", 1e3 * dense->overlaps[0].depth);
   printf("\n");
   for (int i = 0; i < count; i++) {
-    const ambulo_overlap *o = ambulo_result_overlap(result, i);
+    const ambulo_overlap *o = &dense->overlaps[i];
     printf("  %s is %.3g mm inside %s at t = %.4g s\n", o->one, 1e3 * o->depth, o->other, o->time);
   }
 }

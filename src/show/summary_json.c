@@ -9,8 +9,8 @@
 #include "formats/inputs.h"
 
 #include "ambulo/parameters.h"
+#include "base/arithmetic.h"
 #include "formats/json_text.h"
-#include "contact/row_families.h"
 #include "people/stride.h"
 
 #include <math.h>
@@ -74,6 +74,15 @@ static void dense_family(ambulo__json *json, const ambulo_dense_family *f) {
   ambulo__json_close(json, '}');
 }
 
+static void overlap(ambulo__json *json, const ambulo_overlap *o) {
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_text(json, "one", o->one);
+  ambulo__json_text(json, "other", o->other);
+  ambulo__json_number(json, "mm", 1e3 * o->depth);
+  ambulo__json_number(json, "time", o->time);
+  ambulo__json_close(json, '}');
+}
+
 static void between_nodes(ambulo__json *json, const ambulo_result *result) {
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
   if (!dense) return;
@@ -88,22 +97,10 @@ static void between_nodes(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_open(json, "families", '[');
   for (int i = 0; i < dense->family_count; i++) dense_family(json, &dense->families[i]);
   ambulo__json_close(json, ']');
-  ambulo__json_close(json, '}');
-}
-
-/* bodies that overlap, by the exact distance */
-static void overlaps(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_open(json, "overlaps", '[');
-  for (int i = 0; i < ambulo_result_overlap_count(result); i++) {
-    const ambulo_overlap *o = ambulo_result_overlap(result, i);
-    ambulo__json_open(json, NULL, '{');
-    ambulo__json_text(json, "one", o->one);
-    ambulo__json_text(json, "other", o->other);
-    ambulo__json_number(json, "mm", 1e3 * o->depth);
-    ambulo__json_number(json, "time", o->time);
-    ambulo__json_close(json, '}');
-  }
+  for (int i = 0; i < dense->overlap_count; i++) overlap(json, &dense->overlaps[i]);
   ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
 }
 
 static void sensitivity(ambulo__json *json, const ambulo_sensitivity *s) {
@@ -242,9 +239,8 @@ static void vector(ambulo__json *json, const char *key, const double value[3]) {
 }
 
 static void body(ambulo__json *json, const ambulo_model *model) {
-  const double *gravity = ambulo_model_gravity(model), *up = ambulo_model_up(model);
-  double size = 0.0;
-  for (int i = 0; i < 3; i++) size -= gravity[i] * up[i];
+  const double *up = ambulo_model_up(model);
+  double size = -ambulo__dot(ambulo_model_gravity(model), up);
   ambulo__json_open(json, "body", '{');
   ambulo__json_number(json, "mass", ambulo_model_mass(model));
   ambulo__json_number(json, "gravity", size);
@@ -394,7 +390,6 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   if (!status) status = ambulo__holds_json(json, problem, result);
   audit(json, result);
   between_nodes(json, result);
-  overlaps(json, result);
   explanation(json, result);
   list_sensitivities(json, options->sensitivities);
   sizes(json, problem);

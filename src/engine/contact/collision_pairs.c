@@ -240,20 +240,3 @@ void ambulo__pairs_free(const ambulo_allocator *allocator, ambulo__pairs *pairs)
   ambulo__free(allocator, pairs->left);
   memset(pairs, 0, sizeof *pairs);
 }
-
-int ambulo__capsule_is_used(const ambulo_problem_definition *d, int capsule) {
-  for (int k = 0; d->collision.mode != AMBULO_COLLISION_OFF && k < d->collision.pair_count; k++) {
-    if (d->collision.pairs[k].one == capsule || d->collision.pairs[k].other == capsule) return 1;
-  }
-  for (int h = 0; d->collision.mode != AMBULO_COLLISION_OFF && h < d->hold_count; h++) {
-    if (ambulo__hold_is_box(d, h) && ambulo__hold_meets(d, h, capsule)) return 1;
-  }
-  for (int o = 0; o < d->obstacle_count; o++) {
-    const ambulo_obstacle *obstacle = &d->obstacles[o];
-    if (!obstacle->capsules) return 1;
-    for (int i = 0; i < obstacle->capsule_count; i++) {
-      if (obstacle->capsules[i] == capsule) return 1;
-    }
-  }
-  return 0;
-}

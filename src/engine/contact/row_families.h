@@ -6,7 +6,7 @@
  * Reading order: rows.h, rows.c, contacts.h, contacts.c, foot.c, contact_load.c; schedule.h,
  * schedule.c, footholds.c, phases.c, gait.c, ends.c, mirror_check.c; then a family of rows each:
  * place_rows.c, contact_tube.c, clearance.c, zmp.c, force_rows.c, flight.c, limits.c, curved.h,
- * curved.c, capsules.c, collision_pairs.c, collision_rows.c, collision_check.c; devices.h,
+ * curved.c, capsules.c, collision_pairs.c, collision_rows.c, hold_rows.c, collision_check.c; devices.h,
  * devices.c, load_motion.c, load_profile.c, holds.c, load_check.c. */
 #ifndef AMBULO_CONTACT_ROW_FAMILIES_H
 #define AMBULO_CONTACT_ROW_FAMILIES_H
@@ -288,6 +288,8 @@ ambulo_status ambulo__reach_rows(const ambulo__gait_context *context, ambulo__ro
 /* A place along forward, left and up above the ground's height, in the world, m. */
 void ambulo__world_place(const ambulo_problem_definition *definition, const double place[3],
                          double world[3]);
+/* w_i of contact/curved.h, m^2. */
+double ambulo__capsule_weight(const ambulo_capsule *capsule);
 /* What rows keep clear of, in the world, as contact/curved.h has it; where channels begin is left
  * 0. Of two capsules; of an obstacle by itself, without a capsule's radius, distance and weights;
  * of a capsule and an obstacle. */

@@ -151,7 +151,7 @@ ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double 
   ambulo__pool_init(&e->pool, &own);
   e->run = run;
   ambulo_status status = ambulo_workspace_create(problem, &own, &e->workspace);
-  if (!status) ambulo__near_begin(e->workspace, start);
+  if (!status) ambulo__row_roles_set_far(e->workspace, start);
   if (!status) status = set_up(e, problem, run, start, diagnostics);
   if (status) {
     ambulo__engine_free(e);

@@ -1,16 +1,15 @@
-/* method/near.c - which rows between bodies a solve looks at.
+/* method/near.c - which rows between bodies a solve works with.
  *
- * A body has many pairs of parts that could meet, and meets few: a pair that stays away from its
- * bound all along does not decide on the motion, and its rows cost. So a solve has a working set:
+ * A body has many pairs of parts that could meet, and few do. A pair that stays away from its bound
+ * does not decide on the motion, but its rows cost, and rows that press for a moment lead a solve
+ * elsewhere. So each engine has a working set:
  *
- *     x_0   rows whose value there is at most `wide` are in it, the others are far
- *     x     the end of the solve: far rows whose value is below `narrow` join, with all within
- *           `wide`, and where one of them is broken the solve goes on from x with the multipliers
- *           that it had; at most ROUNDS times
+ *     at x_0         rows whose value is at most NEAR_ROWS are in it, the others are far
+ *     begin at x     where a far row is below NEAR_SEEN, all within NEAR_ROWS join
+ *     end at x       where a far row is broken, all within NEAR_ROWS join, and the solve goes on,
+ *                    with the multipliers that it had; at most NEAR_ROUNDS times
  *
- * Rows do not leave the set of an engine, so this ends. The audit looks at every row. Only rows of
- * collision take part: where a body stands in the way, the way that a solve finds past it depends
- * on the rows that it starts with.
+ * Rows do not leave the set of an engine, so this ends. The audit looks at every row.
  */
 #include "method/pipeline.h"
 
@@ -22,23 +21,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { ROUNDS = 4 };
-static const double wide = 0.02;    /* m */
-static const double narrow = 0.003; /* m */
-
-static int may_be_far(const ambulo_problem *p, int row) {
-  return p->table.rows[row].kind == AMBULO__KIND_COLLISION;
-}
-
-void ambulo__near_begin(ambulo_workspace *w, const double *x) {
-  const ambulo_problem *p = w->problem;
-  memset(w->far, 0, (size_t)p->rows);
-  if (ambulo__evaluate(w, x)) return;
-  for (int r = 0; r < p->rows; r++)
-    w->far[r] = (unsigned char)(may_be_far(p, r) && w->row_value[r] > wide);
-}
-
-/* Every far row at x: those within `wide` join where one is below `least`. Returns how many. */
+/* Those within NEAR_ROWS at x join where one of the far rows is below `least`. Returns how many. */
 static int look(ambulo_workspace *w, const double *x, double least) {
   const ambulo_problem *p = w->problem;
   int joined = 0, needed = 0;
@@ -46,7 +29,7 @@ static int look(ambulo_workspace *w, const double *x, double least) {
   if (ambulo__evaluate(w, x)) return 0;
   for (int r = 0; r < p->rows; r++) needed |= w->far[r] && w->row_value[r] < least;
   for (int r = 0; needed && r < p->rows; r++) {
-    if (!w->far[r] || w->row_value[r] > wide) continue;
+    if (!w->far[r] || w->row_value[r] > AMBULO__NEAR_ROWS) continue;
     w->far[r] = 0;
     joined++;
   }
@@ -93,11 +76,11 @@ static ambulo_status solve_near(ambulo__engine *e, ambulo__stage stage, double *
 static ambulo_status solve_rounds(ambulo__engine *e, ambulo__stage stage, double *x,
                                   double *by_row) {
   ambulo_status status = AMBULO_OK;
-  if (look(e->workspace, x, narrow) > 0) status = renew(e, x, by_row);
+  if (look(e->workspace, x, AMBULO__NEAR_SEEN) > 0) status = renew(e, x, by_row);
   for (int round = 0; !status; round++) {
     status = solve_near(e, stage, x);
     double missed = -e->run->options->feasibility_tolerance;
-    if (status || stage == AMBULO__COARSE || round == ROUNDS || ambulo__run_over(e->run)) break;
+    if (status || stage == AMBULO__COARSE || round == AMBULO__NEAR_ROUNDS || ambulo__run_over(e->run)) break;
     if (look(e->workspace, x, missed) == 0) break;
     status = renew(e, x, by_row);
     e->iterate.coarse_objective = fabs(e->workspace->objective); /* multipliers are kept */

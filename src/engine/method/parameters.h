@@ -192,6 +192,16 @@
  * 1030 iterations; 1: +30 %; 3: +4 %; in proportion: +62 %. T: refine. */
 #define AMBULO__COARSE_NODES_A_KNOT 2
 
+/* --------------------------------------------- rows between bodies (near.c, row_roles.c) */
+
+/* m: rows between bodies with at most this value are worked with; in half: other minima; double:
+ * +9 % for walks, and lift takes 8000 evaluations. T: near. */
+#define AMBULO__NEAR_ROWS 0.02
+/* m: what a solve that begins has to see of a far row to take it in. T: near. */
+#define AMBULO__NEAR_SEEN 0.003
+/* How often rows join at an end. Shipped problems need one or two. T: near (0). */
+#define AMBULO__NEAR_ROUNDS 4
+
 /* --------------------------------------------------------------- rough starts (pipeline.c) */
 
 /* Rad, m: what a start is off by; rad/s^2, m/s^2: accelerations of a swinging leg. Together a

@@ -16,8 +16,6 @@ typedef enum ambulo__stage {
 ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__stage stage, double *x);
 /* The same with the rows that the engine has. */
 ambulo_status ambulo__pipeline_of_set(ambulo__engine *engine, ambulo__stage stage, double *x);
-/* Marks the rows between bodies that are far apart at x: workspace->far. */
-void ambulo__near_begin(ambulo_workspace *workspace, const double *x);
 /* Gives the engine every row; x: finite there. E_MEMORY; E_LIMIT: the run was stopped. */
 ambulo_status ambulo__near_all(ambulo__engine *engine, const double *x);
 

@@ -50,6 +50,14 @@ static void classify(const ambulo_problem *p, const unsigned char *far, const in
   }
 }
 
+void ambulo__row_roles_set_far(ambulo_workspace *w, const double *x) {
+  const ambulo_problem *p = w->problem;
+  memset(w->far, 0, (size_t)p->rows);
+  if (ambulo__evaluate(w, x)) return;
+  for (int r = 0; r < p->rows; r++)
+    w->far[r] = p->table.rows[r].kind == AMBULO__KIND_COLLISION && w->row_value[r] > AMBULO__NEAR_ROWS;
+}
+
 ambulo_status ambulo__row_roles_create(const ambulo_problem *p, ambulo_workspace *workspace,
                                        const double *start, ambulo__run *run, ambulo__pool *pool,
                                        ambulo_diagnostics *diagnostics, ambulo__row_roles *out) {

@@ -40,8 +40,11 @@ double ambulo__rows_size(const ambulo_problem *problem, const ambulo__sparse_row
 /* 1 when some equality of the problem's `count` rows contradicts equalities before it. */
 int ambulo__rows_contradict(const ambulo__row_roles *rows, int count);
 
+/* Marks the rows between bodies that are far apart at x, which get no role: workspace->far. */
+void ambulo__row_roles_set_far(ambulo_workspace *workspace, const double *x);
+
 /* Classifies, creates the three sets and fills their gradients at the start. E_MEMORY; E_LIMIT: the
- * run was stopped meanwhile. */
+ * run (NULL: none) was stopped meanwhile. */
 ambulo_status ambulo__row_roles_create(const ambulo_problem *problem, ambulo_workspace *workspace,
                                        const double *start, ambulo__run *run, ambulo__pool *pool,
                                        ambulo_diagnostics *diagnostics, ambulo__row_roles *out);

@@ -15,6 +15,7 @@
  *                     which contacts change; the rules
  *   dense_samples.c   samples, and the worst of each rule
  *   dense_cure.c      the intervals that would bring it under its tolerance
+ *   overlaps.c        bodies that overlap, by their exact distance
  *   dense_audit.c     the steps in order, and all of it in words
  */
 #ifndef AMBULO_SOLVER_DENSE_H
@@ -178,6 +179,8 @@ enum {
 };
 
 /* The public view and the memory it points into. Names in it are static or live in the model. */
+enum { AMBULO__OVERLAPS = 64 };
+
 typedef struct ambulo__dense_report {
   ambulo_dense_audit view;
   ambulo__dense_worst worst;
@@ -189,7 +192,14 @@ typedef struct ambulo__dense_report {
   char line_text[AMBULO__DENSE_RULES][AMBULO__DENSE_LINE_SIZE];
   char summary[AMBULO__DENSE_SUMMARY_SIZE];
   char reason[AMBULO__DENSE_LINE_SIZE];
+  ambulo_overlap overlap[AMBULO__OVERLAPS];
 } ambulo__dense_report;
+
+/* Bodies that overlap in the motion x, the deepest first: overlap[AMBULO__OVERLAPS], *count.
+ * E_MEMORY. (overlaps.c) */
+ambulo_status ambulo__overlaps_find(const ambulo_problem *problem, const double *x,
+                                    const ambulo_allocator *allocator, ambulo_overlap *overlap,
+                                    int *count);
 
 /* Looks at result->x on a grid `samples` times as fine: fills result->dense (families, worst
  * first) and the audit's dense_violation. Where there is no such grid, or it is large and time is

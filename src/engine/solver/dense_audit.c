@@ -115,9 +115,13 @@ ambulo_status ambulo__dense_audit(const ambulo_problem *p, int samples, int in_t
   report->view.lines = report->line;
   report->view.summary = report->summary;
   report->view.reason = report->reason;
+  report->view.overlaps = report->overlap;
   const char *reason = obstacle(p, samples, in_time);
   if (reason) refuse(report, reason);
   ambulo_status status = reason ? AMBULO_OK : look(p, result->x, samples, allocator, report);
+  if (!status)
+    status = ambulo__overlaps_find(p, result->x, allocator, report->overlap,
+                                   &report->view.overlap_count);
   if (status) return status;
   ambulo_violation none = {.family = "", .subject = "", .detail = "", .unit = "", .size = 1.0};
   none.worst = report->view.samples ? 0.0 : (double)NAN;

@@ -10,12 +10,12 @@
 #include "base/arithmetic.h"
 #include "mechanics/pose.h"
 #include "problem/nlp.h"
-#include "solver/result.h"
+#include "solver/dense.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 4, MOST_OVERLAPS = 64 };
+enum { SAMPLES = 4 };
 static const double least = 1e-3;      /* m */
 static const double no_weight = 1e-12; /* m^2 */
 
@@ -27,31 +27,32 @@ typedef struct search {
   ambulo__pairs pairs; /* of automatic collision */
   double *rest;        /* [kept]: how deep pairs overlap in the rest pose, m */
   double time;
-  ambulo_result *result;
+  ambulo_overlap *found;
+  int count;
 } search;
 
 /* ------------------------------------------------------------------- what is found */
 
 /* the deepest of each two */
 static void note(search *s, const char *one, const char *other, double depth) {
-  ambulo_result *r = s->result;
+  ambulo_overlap *o = s->found;
   int at = 0;
   if (!(depth > least)) return;
-  while (at < r->overlaps && (r->overlap[at].one != one || r->overlap[at].other != other)) at++;
-  if (at == MOST_OVERLAPS) return;
-  if (at == r->overlaps) r->overlap[r->overlaps++] = (ambulo_overlap){one, other, 0.0, 0.0};
-  if (!(depth > r->overlap[at].depth)) return;
-  r->overlap[at].depth = depth;
-  r->overlap[at].time = s->time;
+  while (at < s->count && (o[at].one != one || o[at].other != other)) at++;
+  if (at == AMBULO__OVERLAPS) return;
+  if (at == s->count) o[s->count++] = (ambulo_overlap){one, other, 0.0, 0.0};
+  if (!(depth > o[at].depth)) return;
+  o[at].depth = depth;
+  o[at].time = s->time;
 }
 
 /* by insertion */
-static void sort(ambulo_result *r) {
-  for (int i = 1; i < r->overlaps; i++) {
-    ambulo_overlap o = r->overlap[i];
+static void sort(search *s) {
+  for (int i = 1; i < s->count; i++) {
+    ambulo_overlap o = s->found[i];
     int at = i;
-    for (; at > 0 && r->overlap[at - 1].depth < o.depth; at--) r->overlap[at] = r->overlap[at - 1];
-    r->overlap[at] = o;
+    for (; at > 0 && s->found[at - 1].depth < o.depth; at--) s->found[at] = s->found[at - 1];
+    s->found[at] = o;
   }
 }
 
@@ -191,8 +192,7 @@ static ambulo_status open_search(const ambulo_problem *p, const ambulo_allocator
   if (status) return status;
   s->rest = ambulo__alloc(a, (size_t)s->pairs.kept_count, sizeof *s->rest);
   s->q = ambulo__alloc(a, (size_t)p->coordinates, sizeof *s->q);
-  s->result->overlap = ambulo__alloc(&s->result->allocator, MOST_OVERLAPS, sizeof(ambulo_overlap));
-  if (!s->rest || !s->q || !s->result->overlap) return AMBULO_E_MEMORY;
+  if (!s->rest || !s->q) return AMBULO_E_MEMORY;
   for (int k = 0; k < s->pairs.kept_count && !status; k++) {
     double gap = 0.0;
     status = ambulo__rest_gap(p->model, s->pairs.kept[k], a, &gap);
@@ -201,22 +201,22 @@ static ambulo_status open_search(const ambulo_problem *p, const ambulo_allocator
   return status ? status : ambulo__pose_create(p->model, a, &s->pose);
 }
 
-ambulo_status ambulo__overlaps_find(const ambulo_problem *p, const ambulo_allocator *allocator,
-                                    ambulo_result *result) {
+ambulo_status ambulo__overlaps_find(const ambulo_problem *p, const double *x,
+                                    const ambulo_allocator *allocator, ambulo_overlap *overlap,
+                                    int *count) {
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
-  search s = {.problem = p, .model = p->model, .result = result};
+  search s = {.problem = p, .model = p->model, .found = overlap};
+  *count = 0;
   if (p->model->capsule_count == 0) return AMBULO_OK;
-  ambulo__free(&result->allocator, result->overlap);
-  result->overlap = NULL;
-  result->overlaps = 0;
   ambulo_status status = open_search(p, &a, &s);
   for (int k = 0; k + 1 < p->nodes && !status; k++) {
     for (int i = k ? 1 : 0; i <= SAMPLES; i++) {
       s.time = p->times[k] + (p->times[k + 1] - p->times[k]) * i / SAMPLES;
-      look(&s, result->x);
+      look(&s, x);
     }
   }
-  if (!status) sort(result);
+  sort(&s);
+  *count = s.count;
   ambulo__pose_free(&s.pose);
   ambulo__pairs_free(&a, &s.pairs);
   ambulo__free(&a, s.rest);

@@ -44,7 +44,6 @@ void ambulo_result_free(ambulo_result *r) {
   ambulo__free(&a, r->family);
   ambulo__free(&a, r->explanation);
   ambulo__free(&a, r->dense);
-  ambulo__free(&a, r->overlap);
   ambulo__free(&a, r->outcome);
   ambulo__free(&a, r->valleys);
   ambulo__free(&a, r->refinement);
@@ -73,14 +72,6 @@ const double *ambulo_result_multipliers(const ambulo_result *r) {
 const ambulo_audit *ambulo_result_audit(const ambulo_result *r) {
   return &r->audit;
 }
-int ambulo_result_overlap_count(const ambulo_result *r) {
-  return r ? r->overlaps : 0;
-}
-
-const ambulo_overlap *ambulo_result_overlap(const ambulo_result *r, int index) {
-  return r && index >= 0 && index < r->overlaps ? &r->overlap[index] : NULL;
-}
-
 int ambulo_result_family_count(const ambulo_result *r) {
   return r->families;
 }

@@ -29,8 +29,6 @@ struct ambulo_result {
   ambulo_nlopt_work nlopt;
   int iterations, evaluations;
   struct ambulo__explanation *explanation; /* NULL: none */
-  ambulo_overlap *overlap;                 /* [overlaps]; NULL: not looked for */
-  int overlaps;
   struct ambulo__dense_report *dense; /* NULL: not audited */
   struct ambulo__valleys *valleys;    /* of several starts; NULL: there was one */
   struct ambulo__history *history;
@@ -42,10 +40,6 @@ struct ambulo_result {
 /* Sized for `problem`; not judged, the audit that of an unknown point. E_MEMORY. */
 ambulo_status ambulo__result_create(const ambulo_problem *problem,
                                     const ambulo_allocator *allocator, ambulo_result **result);
-
-/* Fills result->overlap from result->x. E_MEMORY. (overlaps.c) */
-ambulo_status ambulo__overlaps_find(const ambulo_problem *problem,
-                                    const ambulo_allocator *allocator, ambulo_result *result);
 
 /* ----------------------------------------------------------------- verdict */
 

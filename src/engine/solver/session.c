@@ -8,7 +8,6 @@
 #include "solver/session.h"
 
 #include "base/alloc.h"
-
 #include "base/arithmetic.h"
 #include "base/machine.h"
 #include "base/sized.h"
@@ -132,23 +131,15 @@ ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_o
 /* relative change of the objective that rows which hold better may cost beside the start */
 static const double start_advantage = 1e-6;
 
-static ambulo_status create_one(ambulo__candidate *c, ambulo__engine *e) {
-  c->x = ambulo__alloc(&e->pool.allocator, (size_t)e->setup->n, sizeof *c->x);
-  c->violation = c->objective = HUGE_VAL;
-  return c->x ? AMBULO_OK : AMBULO_E_MEMORY;
-}
-
+/* of the allocator: the engine's own memory may be another meanwhile (method/near.c) */
 ambulo_status ambulo__candidates_create(ambulo__candidates *c, ambulo__engine *e) {
   c->n = e->setup->n;
   c->tolerance = e->run->options->feasibility_tolerance;
-  ambulo_status status = create_one(&c->start, e);
-  return status ? status : create_one(&c->found, e);
-}
-
-void ambulo__candidates_free(ambulo__candidates *c, const ambulo_allocator *allocator) {
-  ambulo_allocator a = ambulo__allocator_or_default(allocator);
-  ambulo__free(&a, c->start.x);
-  ambulo__free(&a, c->found.x);
+  c->start.x = ambulo__alloc(&e->pool.allocator, 2 * (size_t)c->n, sizeof *c->start.x);
+  if (!c->start.x) return AMBULO_E_MEMORY;
+  c->found.x = c->start.x + c->n;
+  c->start.violation = c->start.objective = c->found.violation = c->found.objective = HUGE_VAL;
+  return AMBULO_OK;
 }
 
 double ambulo__violation_at(ambulo__engine *e, const double *x) {
@@ -319,8 +310,7 @@ static void end_history(ambulo__session *s) {
 
 static ambulo_status look_between(ambulo__session *s) {
   int in_time = !ambulo__run_late(&s->run);
-  ambulo_status status = ambulo__overlaps_find(s->problem, s->allocator, s->result);
-  if (!status) status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
+  ambulo_status status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
                                              s->allocator, s->result);
   if (status) return status;
   return ambulo__dense_advise(s->problem, in_time, s->allocator, s->diagnostics, s->result);
@@ -385,7 +375,8 @@ ambulo_status ambulo__session_end(ambulo__session *s, ambulo_status status,
                         "cannot allocate memory to solve the problem; it takes about %.3g MB",
                         1e-6 * ambulo_problem_memory(s->problem).solve);
   ambulo__engine_free(s->engine);
-  ambulo__candidates_free(&s->candidates, s->allocator);
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  ambulo__free(&a, s->candidates.start.x);
   if (status) {
     ambulo_result_free(s->result);
     return ambulo__conclude(s->diagnostics, s->errors, status, NULL);

@@ -55,9 +55,8 @@ ambulo_status ambulo__session_end(ambulo__session *session, ambulo_status status
 
 /* -------------------------------------------------------------- candidates */
 
-/* With memory of the engine's allocator. E_MEMORY. */
+/* With memory of the engine's allocator, which ambulo__session_end frees. E_MEMORY. */
 ambulo_status ambulo__candidates_create(ambulo__candidates *candidates, ambulo__engine *engine);
-void ambulo__candidates_free(ambulo__candidates *candidates, const ambulo_allocator *allocator);
 /* The caller's start. */
 void ambulo__candidates_offer_start(ambulo__candidates *candidates, ambulo__engine *engine,
                                     const double *x);
