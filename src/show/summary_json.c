@@ -1,7 +1,7 @@
 /* show/summary_json.c - verdict, objective, audit, sizes, effort and versions as JSON.
  *
- * Schema "ambulo-summary/1"; every quantity in SI units and radians. A row is named by
- * family, subject and detail; violations are >= 0 in the unit given beside them. */
+ * Schema "ambulo-summary/1"; SI units and radians. A row is named by family, subject and detail;
+ * violations are >= 0 in the unit given beside them. */
 #include "solver/result.h"
 #include "show/summary_json.h"
 

@@ -144,11 +144,97 @@ static void points_are_segments_too(void **state) {
   assert_true(ambulo__segments_nearest(touching, line, weight).value < 1e-6);
 }
 
+/* -- curvature of rows -- */
+
+static ambulo__solid two_capsules(void) {
+  return (ambulo__solid){.kind = AMBULO__SOLID_MOVING,
+                         .other = 6,
+                         .about = -1,
+                         .distance = 0.1,
+                         .weight = {2e-4, 1e-4}};
+}
+
+/* second difference of the row's value along `way` */
+static double bend_along(const ambulo__solid *solid, const double *y, const double *way) {
+  double h = 1e-4, value[3], moved[AMBULO__SOLID_CHANNELS];
+  for (int k = 0; k < 3; k++) {
+    for (int c = 0; c < AMBULO__SOLID_CHANNELS; c++) moved[c] = y[c] + h * (k - 1) * way[c];
+    value[k] = ambulo__solid_value(solid, moved, 1, NULL);
+  }
+  return -(value[0] - 2.0 * value[1] + value[2]) / (h * h);
+}
+
+static double rows_along(const ambulo__solid *solid, const double *y, const double *way,
+                         int expected) {
+  double rows[2][AMBULO__SOLID_CHANNELS], sum = 0.0;
+  int count = ambulo__solid_curvature(solid, y, 1, rows);
+  assert_int_equal(count, expected);
+  for (int j = 0; j < count; j++) {
+    double one = 0.0;
+    for (int c = 0; c < AMBULO__SOLID_CHANNELS; c++) one += rows[j][c] * way[c];
+    sum += one * one;
+  }
+  return sum;
+}
+
+/* Parallel capsules that turn about their middles: the nearest points run from end to end. The
+ * curvature is all in the rows, and large. */
+static void parallel_capsules_have_the_curvature_of_their_turning(void **state) {
+  (void)state;
+  ambulo__solid solid = two_capsules();
+  const double y[] = {-0.2, 0.0, 0.1, 0.2, 0.0, 0.1, -0.2, 0.0, 0.0, 0.2, 0.0, 0.0};
+  const double turns[3][AMBULO__SOLID_CHANNELS] = {{[2] = -1.0, [5] = 1.0},
+                                                   {[8] = -1.0, [11] = 1.0},
+                                                   {[2] = -1.0, [5] = 1.0, [8] = 2.0, [11] = -2.0}};
+  for (int k = 0; k < 3; k++) {
+    double bend = bend_along(&solid, y, turns[k]);
+    assert_true(bend > 100.0); /* 1/m */
+    assert_close(rows_along(&solid, y, turns[k], 2), bend, 1e-3 * bend);
+  }
+  const double lift[AMBULO__SOLID_CHANNELS] = {[2] = 1.0, [5] = 1.0};
+  assert_close(rows_along(&solid, y, lift, 2), 0.0, 1e-12); /* distance alone has none */
+}
+
+/* of a capsule beside one that stands still, and over the face of a box: one row */
+static void what_stands_still_has_half_of_it(void **state) {
+  (void)state;
+  const double y[] = {-0.2, 0.0, 0.1, 0.2, 0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const double turn[AMBULO__SOLID_CHANNELS] = {[2] = -1.0, [5] = 1.0};
+  ambulo__solid fixed = two_capsules();
+  fixed.kind = AMBULO__SOLID_CAPSULE;
+  fixed.ends[0][0] = -0.2;
+  fixed.ends[1][0] = 0.2;
+  double bend = bend_along(&fixed, y, turn);
+  assert_close(rows_along(&fixed, y, turn, 1), bend, 1e-3 * bend);
+  ambulo__solid box = {.kind = AMBULO__SOLID_BOX,
+                       .about = -1,
+                       .distance = 0.05,
+                       .weight = {2e-4, 0.0},
+                       .half = {1.0, 1.0, 0.05},
+                       .axes = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  bend = bend_along(&box, y, turn);
+  assert_true(bend > 100.0);
+  assert_close(rows_along(&box, y, turn, 1), bend, 1e-3 * bend);
+}
+
+/* ends stay the nearest points: nothing runs */
+static void ends_have_none(void **state) {
+  (void)state;
+  ambulo__solid solid = two_capsules();
+  const double y[] = {0.3, 0.0, 0.1, 0.6, 0.0, 0.4, -0.2, 0.0, 0.0, 0.2, 0.0, 0.0};
+  const double turn[AMBULO__SOLID_CHANNELS] = {[2] = -1.0, [5] = 1.0};
+  assert_close(rows_along(&solid, y, turn, 0), 0.0, 0.0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_minimum_is_that_of_brute_force),
                                      cmocka_unit_test(it_bounds_the_distance_on_both_sides),
                                      cmocka_unit_test(parallel_segments_have_one_nearest_pair),
                                      cmocka_unit_test(test_segments_slopes_are_those_of_the_value),
-                                     cmocka_unit_test(points_are_segments_too)};
+                                     cmocka_unit_test(points_are_segments_too),
+                                     cmocka_unit_test(
+                                         parallel_capsules_have_the_curvature_of_their_turning),
+                                     cmocka_unit_test(what_stands_still_has_half_of_it),
+                                     cmocka_unit_test(ends_have_none)};
   return cmocka_run_group_tests_name("contact/capsules", tests, NULL, NULL);
 }

@@ -81,7 +81,7 @@ static void rows_stand_at_their_nodes(void **state) {
   assert_int_equal(count(&f, "collision", NULL, NULL), 2 * 7);
   assert_int_equal(count(&f, "collision", "shank_r", "shank_l"), 7);
   assert_int_equal(count(&f, "collision", "foot_r", "thigh_l"), 7);
-  assert_int_equal(count(&f, "obstacle", NULL, "crate"), 10 * 7);
+  assert_int_equal(count(&f, "obstacle", NULL, "crate"), 12 * 7);
   assert_int_equal(count(&f, "obstacle", NULL, "rail"), 2 * 7);
   assert_int_equal(count(&f, "reach", "head_top", NULL), 3);   /* equations, at one node */
   assert_int_equal(count(&f, "reach", "knee_r", NULL), 3 * 6); /* at 0, 1/6, 1/3 s */
@@ -241,7 +241,7 @@ static void the_model_has_the_capsules_points(void **state) {
   assert_int_equal(ambulo_model_load("models/lower_body_21.yaml", NULL, NULL, NULL, &plain), 0);
   const ambulo_model *m = ambulo_problem_model(f.p);
   int points = ambulo_model_point_count(plain);
-  assert_int_equal(ambulo_model_point_count(m), points + 2 * 10);
+  assert_int_equal(ambulo_model_point_count(m), points + 2 * 12);
   for (int i = 0; i < points; i++)
     assert_string_equal(ambulo_model_point(m, i)->name, ambulo_model_point(plain, i)->name);
   assert_true(ambulo_model_find_point(m, "shank_l.to") >= points);

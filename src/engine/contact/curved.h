@@ -85,6 +85,16 @@ double ambulo__box_depth(double ends[2][3], const double half[3], double out[3],
  *
  *     dc/dD = -D / sqrt(D^2 + W)
  *
+ * Where two capsules are nearly parallel, the nearest points run from end to end as they turn, and
+ * c is nearly a roof: the less of two distances. That is most of the curvature of c. With
+ * n_s = (-e, e; 0, 0) and n_t = (0, 0; e, -e) by the ends a, b; c, d, and A, B, C of capsules.c, s
+ * and t following the ends adds to -d2c/dy2
+ *
+ *     (C n_s n_s' + B (n_s n_t' + n_t n_s') + A n_t n_t') / (|e| (A C - B^2))        1/m
+ *
+ * and n_s n_s' / (|e| A) where t is at an end or there is none. What is left out is negative, or
+ * small.
+ *
  * A box in the hands keeps its directions forward, left and up, as its grip does. Its middle is
  * m = o + (h_1 + h_2) / 2 of the hands (o + h of one). With the slopes c_a, c_b by the ends of the
  * capsule that keeps clear of it,
