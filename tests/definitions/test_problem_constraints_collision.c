@@ -66,6 +66,33 @@ static void pairs_left_out_are_told(void **state) {
   ambulo_problem_free(p);
 }
 
+/* the same pairs without a key, with the word, and with an empty section; none with `off` */
+static void bodies_are_kept_apart_unless_it_is_off(void **state) {
+  (void)state;
+  static const char *const same[] = {"", "constraints: {collision: automatic}\n",
+                                     "constraints: {collision: {}}\n",
+                                     "constraints: {collision: {pairs: automatic}}\n"};
+  static const char *const none[] = {"constraints: {collision: off}\n",
+                                     "constraints: {collision: {pairs: off}}\n"};
+  char text[512];
+  int pairs = -1;
+  for (int i = 0; i < 4; i++) {
+    (void)snprintf(text, sizeof text, BODY "%s", same[i]);
+    ambulo_problem *p = problem_of(text);
+    if (i == 0) pairs = ambulo_problem_pairs(p, 0, NULL);
+    assert_int_equal(ambulo_problem_pairs(p, 0, NULL), pairs);
+    assert_close(p->definition.collision.margin, 0.0, 0.0);
+    ambulo_problem_free(p);
+  }
+  assert_true(pairs >= 8);
+  for (int i = 0; i < 2; i++) {
+    (void)snprintf(text, sizeof text, BODY "%s", none[i]);
+    ambulo_problem *p = problem_of(text);
+    assert_int_equal(ambulo_problem_pairs(p, 0, NULL), 0);
+    ambulo_problem_free(p);
+  }
+}
+
 /* lengths of another body grow with it; obstacles and places are the task's, and stay */
 static void margins_go_with_the_body(void **state) {
   (void)state;
@@ -192,6 +219,7 @@ static void refusals(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_read), cmocka_unit_test(pairs_left_out_are_told),
+      cmocka_unit_test(bodies_are_kept_apart_unless_it_is_off),
       cmocka_unit_test(margins_go_with_the_body),
       cmocka_unit_test(a_pair_that_overlaps_is_warned_of), cmocka_unit_test(refusals)};
   return cmocka_run_group_tests_name("definitions/problem_constraints_collision", tests, NULL,

@@ -48,6 +48,20 @@ static void values_are_replaced_and_added(void **state) {
 }
 
 /* null and ~ leave a key or an item out; what follows moves up and keeps its place in messages */
+/* words for all that a section holds */
+static void words_give_way_to_what_they_stand_for(void **state) {
+  (void)state;
+  static const char *const words[] = {"on", "automatic"};
+  for (int i = 0; i < 2; i++) {
+    yaml_case c = yaml_open(TEXT);
+    assert_int_equal(ambulo__yaml_set(c.document, "solver.part", words[i]), AMBULO_OK);
+    assert_int_equal(ambulo__yaml_set(c.document, "solver.part.margin", "0.25"), AMBULO_OK);
+    const ambulo__yaml_node *part = at(at(c.root, "solver"), "part");
+    assert_close(ambulo__yaml_number(at(part, "margin"), 0.0), 0.25, 0.0);
+    yaml_shut(&c);
+  }
+}
+
 static void null_leaves_out(void **state) {
   (void)state;
   yaml_case c = yaml_open(TEXT);
@@ -188,6 +202,7 @@ static void out_of_memory_anywhere(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_replaced_and_added),
+                                     cmocka_unit_test(words_give_way_to_what_they_stand_for),
                                      cmocka_unit_test(null_leaves_out),
                                      cmocka_unit_test(faults_name_the_setting),
                                      cmocka_unit_test(a_wrong_value_is_blamed_on_the_setting),

@@ -188,21 +188,20 @@ static void read_pairs(ambulo__problem_reader *reader, const ambulo__yaml_node *
   collision->pair_count = good;
 }
 
+/* a word, or pairs and margin; absent: the default of the members, automatic */
 static void read_collision(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   ambulo_collision *collision = &reader->definition.collision;
   if (!section) return;
-  if (ambulo__yaml_is(section, AMBULO__YAML_SCALAR)) {
-    read_pairs(reader, section, collision); /* a word alone */
-    return;
-  }
-  ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
-  read_pairs(reader, ambulo__yaml_get(section, "pairs"), collision);
+  int is_word = ambulo__yaml_is(section, AMBULO__YAML_SCALAR);
+  if (!is_word)
+    ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
+  read_pairs(reader, is_word ? section : ambulo__yaml_get(section, "pairs"), collision);
   if (collision->mode == AMBULO_COLLISION_AUTOMATIC && reader->model->capsule_count == 0)
     (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
                              "constraints.collision: the model '%s' has no capsules; expected some "
                              "in the model file",
                              reader->model->name);
-  ambulo__yaml_close(section);
+  if (!is_word) ambulo__yaml_close(section);
 }
 
 /* ---------------------------------------------------------------------- reach */

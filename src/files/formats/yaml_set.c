@@ -6,7 +6,8 @@
  *
  *     a missing key                        an empty mapping, or a sequence where [k] follows
  *     a missing item of a row of numbers   the row with '~' in front of it: those keep their values
- *     one word for all, `pressure: on`     an empty mapping
+ *     one word for all, `pressure: on`,    an empty mapping
+ *     `collision: automatic`
  *     one number for all, `scale: 2`       {default: 2}
  *
  * A key that no reader asks for is refused by it, with the nearest name, as one in a file is. */
@@ -174,7 +175,8 @@ static ambulo_status lengthen(const walk *w, ambulo__yaml_node *row, int index) 
 static ambulo_status write_out(const walk *w, ambulo__yaml_node **node) {
   ambulo__yaml_node *scalar = *node;
   if (!w->makes || scalar->kind != AMBULO__YAML_SCALAR || !scalar->parent) return AMBULO_OK;
-  if (strcmp(scalar->text, "on") == 0) return put_text(w, scalar->parent, scalar, NULL, "{}", node);
+  if (strcmp(scalar->text, "on") == 0 || strcmp(scalar->text, "automatic") == 0)
+    return put_text(w, scalar->parent, scalar, NULL, "{}", node);
   double number;
   if (!scalar->key || strcmp(scalar->key->text, "scale") != 0 ||
       !ambulo__parse_double(scalar->text, strlen(scalar->text), &number))
