@@ -54,9 +54,9 @@ static void words_give_way_to_what_they_stand_for(void **state) {
   static const char *const words[] = {"on", "automatic"};
   for (int i = 0; i < 2; i++) {
     yaml_case c = yaml_open(TEXT);
-    assert_int_equal(ambulo__yaml_set(c.document, "solver.part", words[i]), AMBULO_OK);
-    assert_int_equal(ambulo__yaml_set(c.document, "solver.part.margin", "0.25"), AMBULO_OK);
-    const ambulo__yaml_node *part = at(at(c.root, "solver"), "part");
+    assert_int_equal(ambulo__yaml_set(c.document, "time.part", words[i]), AMBULO_OK);
+    assert_int_equal(ambulo__yaml_set(c.document, "time.part.margin", "0.25"), AMBULO_OK);
+    const ambulo__yaml_node *part = at(at(c.root, "time"), "part");
     assert_close(ambulo__yaml_number(at(part, "margin"), 0.0), 0.25, 0.0);
     yaml_shut(&c);
   }
