@@ -117,7 +117,7 @@ static void parts_are_those_of_the_definition(void **state) {
   assert_true(reaction.moment_arm > 0.0 && reaction.moment_arm == d.ground_reaction.moment_arm);
   assert_true(isnan(clearance.height) && clearance.turn == d.clearance.turn &&
               clearance.turn > 0.0);
-  assert_int_equal(collision.mode, AMBULO_COLLISION_OFF);
+  assert_int_equal(collision.mode, AMBULO_COLLISION_AUTOMATIC);
 }
 
 int main(void) {

@@ -22,6 +22,7 @@ enum { POSES = 1024, FIRST_POSE = 20 };
 static const double far = 0.1;            /* m, of a body of 1.75 m */
 static const double half_turn = 3.141593; /* rad, where there is no range */
 static const double exact = 1e-9;         /* m^2, weights of a distance */
+static const double millimetre = 1e-3, rounding = 1e-6;
 
 /* ------------------------------------------------------------------ distance */
 
@@ -65,6 +66,14 @@ ambulo_status ambulo__rest_gap(const ambulo_model *model, ambulo_capsule_pair pa
   }
   ambulo__pose_free(&pose);
   ambulo__free(allocator, q);
+  return status;
+}
+
+ambulo_status ambulo__rest_overlap(const ambulo_model *model, ambulo_capsule_pair pair,
+                                   const ambulo_allocator *allocator, double *overlap) {
+  double gap = 0.0;
+  ambulo_status status = ambulo__rest_gap(model, pair, allocator, &gap);
+  *overlap = gap < 0.0 ? millimetre * ceil(-gap / millimetre - rounding) : 0.0;
   return status;
 }
 

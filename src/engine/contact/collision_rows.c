@@ -75,15 +75,15 @@ ambulo_status ambulo__collision_rows(const ambulo__gait_context *context,
   for (int k = 0; d->collision.mode != AMBULO_COLLISION_OFF && k < d->collision.pair_count; k++) {
     const ambulo_capsule_pair *pair = &d->collision.pairs[k];
     ambulo__solid solid = ambulo__solid_of_pair(d, *pair);
-    double gap = 0.0;
-    ambulo_status status = ambulo__rest_gap(context->model, *pair, allocator, &gap);
+    double rest = 0.0;
+    ambulo_status status = ambulo__rest_overlap(context->model, *pair, allocator, &rest);
     if (status) return status;
     double distance = solid.distance;
     solid.one = channel_of(context, pair->one);
     solid.other = channel_of(context, pair->other);
     for (int node = 0; node < nodes; node++) {
       double t = context->times[node];
-      solid.distance = gap < 0.0 ? distance + gap - rest_allowance(d, t) : distance;
+      solid.distance = rest > 0.0 ? distance - rest - rest_allowance(d, t) : distance;
       ambulo__row_solid(table, AMBULO__KIND_COLLISION, capsules[pair->one].name,
                         capsules[pair->other].name, node, t, &solid);
     }

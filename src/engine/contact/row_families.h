@@ -264,6 +264,10 @@ ambulo__solid ambulo__solid_of_ground(const ambulo_problem_definition *definitio
  * it; m, negative: they overlap. E_MEMORY. */
 ambulo_status ambulo__rest_gap(const ambulo_model *model, ambulo_capsule_pair pair,
                                const ambulo_allocator *allocator, double *gap);
+/* What two capsules may overlap by because they do so in the rest pose: the least whole number of
+ * millimetres, so that it does not move with every number of the body; m, 0: nothing. E_MEMORY. */
+ambulo_status ambulo__rest_overlap(const ambulo_model *model, ambulo_capsule_pair pair,
+                                   const ambulo_allocator *allocator, double *overlap);
 
 /* 1: rows of the definition stand on capsule i, whose ends then are points of the model
  * (model/model_query.h). The pairs are those listed, not AMBULO_COLLISION_AUTOMATIC. */

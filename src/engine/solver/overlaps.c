@@ -193,11 +193,8 @@ static ambulo_status open_search(const ambulo_problem *p, const ambulo_allocator
   s->rest = ambulo__alloc(a, (size_t)s->pairs.kept_count, sizeof *s->rest);
   s->q = ambulo__alloc(a, (size_t)p->coordinates, sizeof *s->q);
   if (!s->rest || !s->q) return AMBULO_E_MEMORY;
-  for (int k = 0; k < s->pairs.kept_count && !status; k++) {
-    double gap = 0.0;
-    status = ambulo__rest_gap(p->model, s->pairs.kept[k], a, &gap);
-    s->rest[k] = fmax(0.0, -gap);
-  }
+  for (int k = 0; k < s->pairs.kept_count && !status; k++)
+    status = ambulo__rest_overlap(p->model, s->pairs.kept[k], a, &s->rest[k]);
   return status ? status : ambulo__pose_create(p->model, a, &s->pose);
 }
 
