@@ -26,8 +26,9 @@ typedef enum ambulo_collision_mode {
   AMBULO_COLLISION_OFF = 0,
   AMBULO_COLLISION_PAIRS, /* the listed pairs */
   /* All pairs but three kinds: those of links connected by joints alone; those that overlap in the
-   * rest pose (coordinates 0, or as near to 0 as their ranges allow); and those that stay at least
-   * 0.1 m apart (for a stature of 1.75 m) in 1024 poses within the ranges. */
+   * rest pose (coordinates 0, or as near to 0 as their ranges allow) and are both connected to one
+   * link; and those that stay at least 0.1 m apart (for a stature of 1.75 m) in 1024 poses within
+   * the ranges. Others that overlap in the rest pose may overlap as far as there. */
   AMBULO_COLLISION_AUTOMATIC
 } ambulo_collision_mode;
 
@@ -77,8 +78,8 @@ typedef struct ambulo_reach {
   double tolerance; /* along each axis, m; 0: equations */
 } ambulo_reach;
 
-/* Off, without pairs; a box of size 0 for all capsules; a point at the world's origin from 0 until
- * the end, whose index must be set. */
+/* Automatic, without a margin; a box of size 0 for all capsules; a point at the world's origin from
+ * 0 until the end, whose index must be set. */
 AMBULO_PROBLEM_DEFAULT(ambulo_collision);
 AMBULO_PROBLEM_DEFAULT(ambulo_obstacle);
 AMBULO_PROBLEM_DEFAULT(ambulo_reach);

@@ -236,7 +236,8 @@ typedef struct ambulo_problem_definition {
   int user_row_count;
 } ambulo_problem_definition;
 
-/* One second, 12 equal intervals, cubic B-spline, everything else off or empty. */
+/* One second, 12 equal intervals, cubic B-spline, parts of the body kept apart (collision.h),
+ * everything else off or empty. */
 #ifndef AMBULO_DECLARATIONS_ONLY
 static inline ambulo_problem_definition ambulo_problem_definition_default(void) {
   ambulo_problem_definition usual;

@@ -239,12 +239,11 @@ static void vector(ambulo__json *json, const char *key, const double value[3]) {
 }
 
 static void body(ambulo__json *json, const ambulo_model *model) {
-  const double *up = ambulo_model_up(model);
-  double size = -ambulo__dot(ambulo_model_gravity(model), up);
+  double size = -ambulo__dot(ambulo_model_gravity(model), ambulo_model_up(model));
   ambulo__json_open(json, "body", '{');
   ambulo__json_number(json, "mass", ambulo_model_mass(model));
   ambulo__json_number(json, "gravity", size);
-  vector(json, "up", up);
+  vector(json, "up", ambulo_model_up(model));
   vector(json, "forward", ambulo_model_forward(model));
   ambulo__json_close(json, '}');
 }

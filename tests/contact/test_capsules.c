@@ -227,14 +227,14 @@ static void ends_have_none(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_minimum_is_that_of_brute_force),
-                                     cmocka_unit_test(it_bounds_the_distance_on_both_sides),
-                                     cmocka_unit_test(parallel_segments_have_one_nearest_pair),
-                                     cmocka_unit_test(test_segments_slopes_are_those_of_the_value),
-                                     cmocka_unit_test(points_are_segments_too),
-                                     cmocka_unit_test(
-                                         parallel_capsules_have_the_curvature_of_their_turning),
-                                     cmocka_unit_test(what_stands_still_has_half_of_it),
-                                     cmocka_unit_test(ends_have_none)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_minimum_is_that_of_brute_force),
+      cmocka_unit_test(it_bounds_the_distance_on_both_sides),
+      cmocka_unit_test(parallel_segments_have_one_nearest_pair),
+      cmocka_unit_test(test_segments_slopes_are_those_of_the_value),
+      cmocka_unit_test(points_are_segments_too),
+      cmocka_unit_test(parallel_capsules_have_the_curvature_of_their_turning),
+      cmocka_unit_test(what_stands_still_has_half_of_it),
+      cmocka_unit_test(ends_have_none)};
   return cmocka_run_group_tests_name("contact/capsules", tests, NULL, NULL);
 }

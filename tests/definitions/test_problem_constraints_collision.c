@@ -217,11 +217,12 @@ static void refusals(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_read), cmocka_unit_test(pairs_left_out_are_told),
-      cmocka_unit_test(bodies_are_kept_apart_unless_it_is_off),
-      cmocka_unit_test(margins_go_with_the_body),
-      cmocka_unit_test(a_pair_that_overlaps_is_warned_of), cmocka_unit_test(refusals)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read),
+                                     cmocka_unit_test(pairs_left_out_are_told),
+                                     cmocka_unit_test(bodies_are_kept_apart_unless_it_is_off),
+                                     cmocka_unit_test(margins_go_with_the_body),
+                                     cmocka_unit_test(a_pair_that_overlaps_is_warned_of),
+                                     cmocka_unit_test(refusals)};
   return cmocka_run_group_tests_name("definitions/problem_constraints_collision", tests, NULL,
                                      NULL);
 }

@@ -1,9 +1,10 @@
 /* contact/collision_pairs.c - which capsules are kept apart.
  *
  * Automatic mode takes all pairs but three kinds: those of neighbouring links
- * (model/model_query.h), which overlap at their joint; those that overlap in the rest pose, whose
- * rows could never hold; and those too far apart to meet, which stay `far` apart in all POSES
- * poses. With mirrored ends the mirror image of each kept pair is kept too.
+ * (model/model_query.h), which overlap at their joint; those that overlap in the rest pose and have
+ * a neighbour in common, such as trunk and thigh, whose rows could never hold; and those too far
+ * apart to meet, which stay `far` apart in all POSES poses. With mirrored ends the mirror image of
+ * each kept pair is kept too.
  *
  * Coordinates of the poses are within their ranges, or anywhere if ranges have no rows. The poses
  * are the same in every run: coordinate i takes the radical inverse of the pose's number in the

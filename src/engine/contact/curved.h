@@ -25,9 +25,9 @@
  */
 
 typedef struct ambulo__segment_nearest {
-  double at[2]; /* s, t */
-  double e[3];  /* x(s) - y(t), m */
-  double value; /* V, m^2 */
+  double at[2];     /* s, t */
+  double e[3];      /* x(s) - y(t), m */
+  double value;     /* V, m^2 */
   double square[3]; /* A, C, B: half the second derivatives by s, by t; less that by both, m^2 */
 } ambulo__segment_nearest;
 
@@ -54,9 +54,9 @@ ambulo__segment_nearest ambulo__segments_nearest(double one[2][3], double other[
  * segment touches, and its slopes are those of n; where two ways out are equally long they jump. */
 
 typedef struct ambulo__box_nearest {
-  double at;    /* s */
-  double o[3];  /* o(x(s)), m */
-  double value; /* V, m^2 */
+  double at;     /* s */
+  double o[3];   /* o(x(s)), m */
+  double value;  /* V, m^2 */
   double square; /* half the second derivative by s, m^2 */
 } ambulo__box_nearest;
 
@@ -139,8 +139,8 @@ double ambulo__solid_excess(const ambulo__solid *solid);
 double ambulo__solid_value(const ambulo__solid *solid, const double *y, int stride, double *slope);
 /* The channels on which it stands: returns how many of channel[AMBULO__SOLID_CHANNELS]. */
 int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID_CHANNELS]);
-/* Rows of as many numbers as there are channels, in their order: sum of r r' is the part of -d2c/dy2
- * named above. Returns how many of rows[2]. */
+/* Rows of as many numbers as there are channels, in their order: sum of r r' is the part of
+ * -d2c/dy2 named above. Returns how many of rows[2]. */
 int ambulo__solid_curvature(const ambulo__solid *solid, const double *y, int stride,
                             double rows[2][AMBULO__SOLID_CHANNELS]);
 /* What air there is between the two, margin left out, without weights, m; negative: so far is one

@@ -6,8 +6,8 @@
  * Reading order: rows.h, rows.c, contacts.h, contacts.c, foot.c, contact_load.c; schedule.h,
  * schedule.c, footholds.c, phases.c, gait.c, ends.c, mirror_check.c; then a family of rows each:
  * place_rows.c, contact_tube.c, clearance.c, zmp.c, force_rows.c, flight.c, limits.c, curved.h,
- * curved.c, capsules.c, collision_pairs.c, collision_rows.c, hold_rows.c, collision_check.c; devices.h,
- * devices.c, load_motion.c, load_profile.c, holds.c, load_check.c. */
+ * curved.c, capsules.c, collision_pairs.c, collision_rows.c, hold_rows.c, collision_check.c;
+ * devices.h, devices.c, load_motion.c, load_profile.c, holds.c, load_check.c. */
 #ifndef AMBULO_CONTACT_ROW_FAMILIES_H
 #define AMBULO_CONTACT_ROW_FAMILIES_H
 

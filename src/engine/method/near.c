@@ -80,7 +80,9 @@ static ambulo_status solve_rounds(ambulo__engine *e, ambulo__stage stage, double
   for (int round = 0; !status; round++) {
     status = solve_near(e, stage, x);
     double missed = -e->run->options->feasibility_tolerance;
-    if (status || stage == AMBULO__COARSE || round == AMBULO__NEAR_ROUNDS || ambulo__run_over(e->run)) break;
+    if (status || stage == AMBULO__COARSE || round == AMBULO__NEAR_ROUNDS ||
+        ambulo__run_over(e->run))
+      break;
     if (look(e->workspace, x, missed) == 0) break;
     status = renew(e, x, by_row);
     e->iterate.coarse_objective = fabs(e->workspace->objective); /* multipliers are kept */

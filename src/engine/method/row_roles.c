@@ -55,7 +55,8 @@ void ambulo__row_roles_set_far(ambulo_workspace *w, const double *x) {
   memset(w->far, 0, (size_t)p->rows);
   if (ambulo__evaluate(w, x)) return;
   for (int r = 0; r < p->rows; r++)
-    w->far[r] = p->table.rows[r].kind == AMBULO__KIND_COLLISION && w->row_value[r] > AMBULO__NEAR_ROWS;
+    w->far[r] =
+        p->table.rows[r].kind == AMBULO__KIND_COLLISION && w->row_value[r] > AMBULO__NEAR_ROWS;
 }
 
 ambulo_status ambulo__row_roles_create(const ambulo_problem *p, ambulo_workspace *workspace,

@@ -80,8 +80,7 @@ ambulo_status ambulo__workspace_create_for_values(const ambulo_problem *problem,
   w->channel_count = ambulo__channel_count(&problem->channels);
   w->user_slot = ambulo__alloc(&own, (size_t)problem->rows, sizeof *w->user_slot);
   w->far = ambulo__alloc(&own, (size_t)problem->rows, sizeof *w->far);
-  ambulo_status status =
-      w->user_slot && w->far ? allocate(w, 0, VALUE_ARRAYS) : AMBULO_E_MEMORY;
+  ambulo_status status = w->user_slot && w->far ? allocate(w, 0, VALUE_ARRAYS) : AMBULO_E_MEMORY;
   if (status) {
     ambulo_workspace_free(w);
     return status;

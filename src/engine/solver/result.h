@@ -29,8 +29,8 @@ struct ambulo_result {
   ambulo_nlopt_work nlopt;
   int iterations, evaluations;
   struct ambulo__explanation *explanation; /* NULL: none */
-  struct ambulo__dense_report *dense; /* NULL: not audited */
-  struct ambulo__valleys *valleys;    /* of several starts; NULL: there was one */
+  struct ambulo__dense_report *dense;      /* NULL: not audited */
+  struct ambulo__valleys *valleys;         /* of several starts; NULL: there was one */
   struct ambulo__history *history;
   struct ambulo__outcome *outcome;       /* of free parameters; NULL: there were none */
   struct ambulo__refinement *refinement; /* of finer grids; NULL: there were none */

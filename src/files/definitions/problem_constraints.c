@@ -193,8 +193,7 @@ static void read_collision(ambulo__problem_reader *reader, const ambulo__yaml_no
   ambulo_collision *collision = &reader->definition.collision;
   if (!section) return;
   int is_word = ambulo__yaml_is(section, AMBULO__YAML_SCALAR);
-  if (!is_word)
-    ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
+  if (!is_word) ambulo__read_members(reader, section, &ambulo__collision_members, "", collision);
   read_pairs(reader, is_word ? section : ambulo__yaml_get(section, "pairs"), collision);
   if (collision->mode == AMBULO_COLLISION_AUTOMATIC && reader->model->capsule_count == 0)
     (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
