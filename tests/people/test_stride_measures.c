@@ -371,7 +371,7 @@ static void solved_walks_keep_their_margin_between_nodes(void **state) {
   assert_int_equal(ambulo__approaches(p, ambulo_result_x(result), samples, &own, &list, &count), 0);
   double least = INFINITY;
   for (int i = 0; i < count; i++) least = fmin(least, list[i].gap);
-  assert_true(count == 9);                            /* with the mirror image of each pair */
+  assert_true(count == 16);                           /* with the mirror image of each pair */
   assert_true(least > 0.03 - 0.001 && least < 0.033); /* and it is kept by no more than asked */
   /* the second step is the first one's image */
   assert_close(named(list, count, "shank_r", "thigh_l")->gap,

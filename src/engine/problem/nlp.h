@@ -297,6 +297,8 @@ ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,
 /* How much a problem takes, before it is taken; bytes, as doubles: absurd sizes do not overflow
  * them. Of a workspace of a problem whose grid and plan are there. */
 double ambulo__workspace_bytes(const ambulo_problem *problem, int with_jacobians);
+/* Of that: slopes of rows that are not linear. */
+double ambulo__slope_bytes(const ambulo_problem *problem);
 /* Of the rows that this definition can bring at the most, with the tables made of them. */
 double ambulo__row_bytes(const ambulo_problem *problem, double rows);
 double ambulo__rows_at_most(const ambulo_problem *problem);

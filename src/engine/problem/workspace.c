@@ -144,12 +144,16 @@ static double curved_rows(const ambulo_problem *p) {
   return per_node * p->nodes;
 }
 
+double ambulo__slope_bytes(const ambulo_problem *p) {
+  return sizeof(double) * curved_rows(p) * ambulo__channel_count(&p->channels);
+}
+
 double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
   double lanes = 8.0 * p->blocks, word = sizeof(double);
   double bytes = 3.0 * lanes * word * ambulo__channel_count(&p->channels);
   bytes += word * (2.0 * p->variables + 1.5 * p->rows);
-  bytes += word * curved_rows(p) * ambulo__channel_count(&p->channels);
+  bytes += ambulo__slope_bytes(p);
   bytes += word * (double)ambulo__plan_scratch(p->plan);
   if (!with_jacobians) return bytes;
   bytes += lanes * word * (pattern.count + 2.0 * pattern.dynamic_count);

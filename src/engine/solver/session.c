@@ -100,7 +100,8 @@ ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
   double engine = memory.evaluation + bands + entries + vectors + columns;
   double coarse = coarse_share * (engine + memory.problem);
   int samples = ambulo__dense_samples(p, ambulo_options_default().dense_samples);
-  double dense = samples < 2 ? 0.0 : samples * (memory.problem + ambulo__workspace_bytes(p, 0));
+  double values = ambulo__workspace_bytes(p, 0) - ambulo__slope_bytes(p);
+  double dense = samples < 2 ? 0.0 : samples * (memory.problem + values);
   double explanation = 2.0 / 3.0 * bands + entries + columns;
   double after = dense > explanation ? dense : explanation;
   memory.solve = margin * (memory.problem + engine + (coarse > after ? coarse : after));
