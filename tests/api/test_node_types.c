@@ -48,7 +48,8 @@ static int is_plain_number(const ambulo__yaml_node *node) {
 /* Whether an accepted value may be of this type: of the one that stood there, or at one of the few
  * places where several are legal. */
 static int is_legal(const mutation *m) {
-  static const char *const either[] = {"source", "gait.step_time", "scale", "outputs["};
+  static const char *const either[] = {"source", "gait.step_time", "scale", "outputs[",
+                                       "constraints.collision"};
   const char *path = ambulo__yaml_place(m->target).path, *value = m->replacement;
   int is_list = value[0] == '[', is_mapping = value[0] == '{', is_word = !is_list && !is_mapping;
   int is_number = value == mutation_values[0] || value == mutation_values[1];
