@@ -141,7 +141,7 @@ static void what_there_is_not_is_not_said(void **state) {
   assert_null(strstr(ambulo__text_data(&text), "per_kg_metre"));
   ambulo__text_free(&text);
   write("models/lift.yaml", &text);
-  assert_true(fabs(number(ambulo__text_data(&text), "\"distance\": ")) > 0.01);
+  assert_true(fabs(number(ambulo__text_data(&text), "\"distance\": ")) > 0.001);
   assert_null(strstr(ambulo__text_data(&text), "per_kg_metre"));
   ambulo__text_free(&text);
 }

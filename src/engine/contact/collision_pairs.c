@@ -231,7 +231,7 @@ ambulo_status ambulo__pairs_create(const ambulo_problem_definition *d,
                                    const ambulo_allocator *allocator, ambulo__pairs *pairs) {
   memset(pairs, 0, sizeof *pairs);
   size_t n = (size_t)d->model->capsule_count;
-  if (d->collision.mode == AMBULO_COLLISION_OFF) return AMBULO_OK;
+  if (d->collision.mode == AMBULO_COLLISION_OFF || n == 0) return AMBULO_OK;
   size_t most =
       d->collision.mode == AMBULO_COLLISION_PAIRS ? 2 * (size_t)d->collision.pair_count : n * n / 2;
   pairs->kept = ambulo__alloc(allocator, most, sizeof *pairs->kept);
