@@ -4,7 +4,7 @@
 #include "support/shared_data.h"
 #include "support/test.h"
 
-enum { MOST_SETTINGS = 11 };
+enum { MOST_SETTINGS = 9 };
 
 static unsigned long long hash_of(const char *name, const char *const *settings, int count) {
   char path[512];
@@ -40,9 +40,6 @@ static const variant variants[] = {
     {"walk_carrying",
      "walk_whole_body",
      {"time.intervals=80", "trajectory.intervals=14", "load=null", "constraints.reach=null",
-      "constraints.collision.margin=0",
-      "constraints.collision.pairs=[[hand_r, pelvis], [hand_l, pelvis], [hand_r, trunk], "
-      "[hand_l, trunk], [forearm_r, trunk], [forearm_l, trunk]]",
       "objective[arm_posture].angles.arm_flex_r=14", "objective[arm_posture].angles.arm_flex_l=14",
       "objective[arm_posture].angles.elbow_flex_r=22",
       "objective[arm_posture].angles.elbow_flex_l=22"}},
