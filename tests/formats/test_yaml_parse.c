@@ -52,6 +52,10 @@ static void directives(void **state) {
   EXPECT_REFUSED(
       "%TAG !a! tag:a\n---\na: 1\n",
       "t.yaml:1:1: error[E_PARSE]: got a line that starts with '%'; directives are not allowed");
+  /* what is behind the text is none of it */
+  expect_refused("%YAML 1.1\n---\n", 3,
+                 "t.yaml:1:1: error[E_PARSE]: got a line that starts with '%'; directives are not "
+                 "allowed");
   yaml_case c = yaml_open("%YAML 1.1\n---\na: 5%\n");
   assert_int_equal(c.status, AMBULO_OK);
   yaml_shut(&c);

@@ -64,7 +64,8 @@ static ambulo_status scan(ambulo_diagnostics *diagnostics, const char *text, siz
                            "got the control character U+%04X; expected text", (unsigned)code);
     }
     /* libyaml compares each %TAG with all others: a file of them would never end */
-    if (code == '%' && place.column == 1 && strncmp(text + at, "%YAML ", 6) != 0) {
+    int is_version = length - at >= 6 && memcmp(text + at, "%YAML ", 6) == 0;
+    if (code == '%' && place.column == 1 && !is_version) {
       return ambulo__error(diagnostics, AMBULO_E_PARSE, place, NULL,
                            "got a line that starts with '%%'; directives are not allowed");
     }
