@@ -15,7 +15,7 @@ import threading
 import numpy
 
 import ambulo
-from support import REACH, YARDSTICK, Case, arm, effort, swing
+from support import REACH, TOP, YARDSTICK, Case, arm, effort, swing
 
 FREE = {"free": {"ends.initial_speed.shoulder": [-300, 600]}}
 
@@ -77,6 +77,23 @@ class Closing(Silent):
                 self.assertIsNotNone(getattr(problem, name)(*arguments))
                 self.assertTrue(closed)
             problem.close()
+
+    def test_in_the_progress_of_batches_and_fits(self):
+        batch = ambulo.Batch.create(self.folder / "sweep.yaml", REACH,
+                                    axes=[{"key": "time.duration", "values": [0.9, 1.0]}])
+        fit, calls = ambulo.Fit.load(TOP / "tests" / "study" / "arm" / "fit.yaml"), []
+
+        def close(thing):
+            def progress(now):
+                calls.append(thing)
+                thing.close()
+                gc.collect()
+            return progress
+
+        study = batch.run(self.folder / "study", workers=1, progress=close(batch))
+        self.assertEqual((study.status().done, len(study.batch)), (2, 2))
+        fit.run(self.folder / "fitted", workers=2, progress=close(fit))
+        self.assertEqual(set(calls), {batch, fit})
 
     def test_from_another_thread(self):
         for _ in range(5):

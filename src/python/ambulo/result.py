@@ -150,7 +150,7 @@ class Result(Owner):
     def refinement(self) -> Optional[records.Refinement]:
         """The grids of Problem.solve_refined, and what finer ones would still bring; None for one
         grid."""
-        return self._optional(lib.ambulo_result_refinement(self._pointer), records.Refinement)
+        return self._record(records.Refinement, lib.ambulo_result_refinement)
 
     @property
     def ending(self) -> str:
