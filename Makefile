@@ -128,7 +128,7 @@ ifeq ($(X86),)
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
-  $(if $(ENGINE)$(READERS),,$(OUT)/obj/viewer.o)
+  $(if $(ENGINE)$(READERS),,$(OUT)/obj/viewer.o $(OUT)/obj/engine_digest.o)
 CLI_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(CLI_SOURCES))
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
@@ -226,6 +226,16 @@ $(OUT)/obj/viewer.c: src/show/viewer.html Makefile
 	  od -An -v -t u1 $< | sed 's/[0-9][0-9]*/&,/g'; echo '0};'; \
 	  echo 'const size_t ambulo__viewer_size = sizeof ambulo__viewer - 1;'; } > $@
 $(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags
+	$(call compile,)
+
+# which engine this is: results are those of its sources (src/show/summary_json.h)
+ENGINE_FILES := $(sort $(wildcard include/ambulo/*.h src/engine/*/*.[ch]))
+$(OUT)/obj/engine_digest.c: $(ENGINE_FILES) $(SOURCES_RECORD) Makefile
+	@mkdir -p $(@D)
+	$(call quiet,GEN $@)digest=$$(cat $(ENGINE_FILES) | { sha256sum 2>/dev/null || shasum -a 256; } | cut -c1-16) && \
+	  { echo '#include "show/summary_json.h"'; \
+	  echo "const char ambulo__engine_digest[] = \"$$digest\";"; } > $@
+$(OUT)/obj/engine_digest.o: $(OUT)/obj/engine_digest.c $(OUT)/obj/flags
 	$(call compile,)
 
 $(ARCHIVE): $(LIB_OBJECTS) $(SOURCES_RECORD)

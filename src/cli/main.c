@@ -24,8 +24,8 @@ static void print_version(void) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   printf("ambulo %s\n", versions.ambulo);
-  printf("NLopt %s, libyaml %s, %s, instruction set %s\n", versions.nlopt, versions.libyaml,
-         versions.blas, versions.instruction_set);
+  printf("engine %s, NLopt %s, libyaml %s, %s, instruction set %s\n", versions.engine,
+         versions.nlopt, versions.libyaml, versions.blas, versions.instruction_set);
 }
 
 static int print_models(void) {
@@ -99,6 +99,7 @@ static int dispatch(int argc, char **argv) {
 int main(int argc, char **argv) {
   if (!ambulo__cli_become_worker()) return 128 + SIGTERM;
   ambulo__cli_guard_streams();
+  if (!ambulo__cli_worker_fits()) return ambulo_status_exit_code(AMBULO_E_IO);
   ambulo__cli_shipped_announce();
   ambulo__cli_single_threaded_blas(argv);
   /* a closed pipe and a file size limit show up as failed writes, so that files are whole */

@@ -76,6 +76,19 @@ int ambulo__cli_is_worker(void) {
   return getenv("AMBULO_WORKER") != NULL;
 }
 
+int ambulo__cli_worker_fits(void) {
+  const char *variable = getenv("AMBULO_WORKER"), *engine = variable ? strchr(variable, ' ') : NULL;
+  engine = engine ? strchr(engine + 1, ' ') : NULL;
+  if (!engine) return 1;
+  ambulo_versions own;
+  ambulo_versions_get(&own);
+  if (strcmp(engine + 1, own.engine) == 0) return 1;
+  ambulo__cli_error("E_IO", "name the program of the same build",
+                    "this program has the engine %s; expected that of the batch, %.16s", own.engine,
+                    engine + 1);
+  return 0;
+}
+
 /* ---------------------------------------------------------------------- OpenBLAS */
 
 /* OpenBLAS starts a thread per core when it is loaded; the matrices here are too small to gain

@@ -10,11 +10,13 @@ int ambulo__cli_own_program(char *buffer, size_t size);
  * the program by itself (Linux), else its path, which stays. */
 const char *ambulo__cli_worker_program(void);
 
-/* If AMBULO_WORKER="<parent process> <megabytes>" is set: dies with the parent, and limits its
- * own address space (0: no limit). Returns 0 when the parent is gone already. */
+/* If AMBULO_WORKER="<parent process> <megabytes> <engine>" is set: dies with the parent, and limits
+ * its own address space (0: no limit). Returns 0 when the parent is gone already. */
 int ambulo__cli_become_worker(void);
 /* Whether it is set. */
 int ambulo__cli_is_worker(void);
+/* 0 with a message when this program has another engine than the batch that started it. */
+int ambulo__cli_worker_fits(void);
 
 /* One thread for OpenBLAS, unless OPENBLAS_NUM_THREADS says otherwise. May start the program again
  * with `argv`. */

@@ -361,6 +361,7 @@ static void versions(ambulo__json *json) {
   ambulo__json_text(json, "libyaml", v.libyaml);
   ambulo__json_text(json, "blas", v.blas);
   ambulo__json_text(json, "instruction_set", v.instruction_set);
+  ambulo__json_text(json, "engine", v.engine);
   ambulo__json_close(json, '}');
 }
 

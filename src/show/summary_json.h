@@ -9,6 +9,10 @@
 #include "formats/json_text.h"
 #include "problem/nlp.h"
 
+/* 16 digits of the SHA-256 of the engine's sources, which the build writes: two builds of one
+ * version may be of two engines. */
+extern const char ambulo__engine_digest[];
+
 /* "approaches"; nothing of a problem without. E_MEMORY. */
 ambulo_status ambulo__approach_json(ambulo__json *json, const ambulo_problem *problem,
                                     const ambulo_result *result);

@@ -37,6 +37,7 @@ void ambulo_versions_get(ambulo_versions *versions) {
   blas_version(versions->blas, sizeof versions->blas);
   snprintf(versions->instruction_set, sizeof versions->instruction_set, "%s",
            ambulo__instruction_set());
+  snprintf(versions->engine, sizeof versions->engine, "%s", ambulo__engine_digest);
 }
 
 enum { PER_INTERVAL = 10 };

@@ -1,13 +1,15 @@
 /* study/batch_worker.c - the process of one case: started, and what its end means.
  *
  * The worker limits its own address space and asks to die with its parent (src/cli/worker.c):
- * it reads both from AMBULO_WORKER="<parent process> <megabytes>". AMBULO_INPUTS has the files that
- * it may read, with their checksums (definitions/problem_file.c): a file that changed, or is away,
- * ends the run, since its case would be another one.
+ * it reads both from AMBULO_WORKER="<parent process> <megabytes> <engine>", and refuses to work for
+ * another engine than its own. AMBULO_INPUTS has the files that it may read, with their checksums
+ * (definitions/problem_file.c): a file that changed, or is away, ends the run, since its case would
+ * be another one.
  *
  * Recorded: whatever the case itself brought about (a verdict, invalid input, a crash, its time
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
  * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
+#include "ambulo/tools/report.h"
 #include "base/machine.h"
 #include "formats/atomic_file.h"
 #include "formats/read_file.h"
@@ -39,7 +41,7 @@ typedef struct command {
   char *result, *log, *start;
   const char **argument, **variable; /* both end with NULL */
   ambulo__text_buffer inputs;
-  char limits[64];
+  char limits[96];
 } command;
 
 static void free_command(command *c) {
@@ -69,8 +71,10 @@ static int fill_environment(command *c, const ambulo__supervisor *batch, int ind
   if (!c->variable) return 0;
   for (size_t i = 0; i < count; i++)
     if (!is_ours(environ[i])) c->variable[kept++] = environ[i];
-  (void)snprintf(c->limits, sizeof c->limits, "AMBULO_WORKER=%ld %d", (long)getpid(),
-                 batch->case_megabytes);
+  ambulo_versions versions;
+  ambulo_versions_get(&versions);
+  (void)snprintf(c->limits, sizeof c->limits, "AMBULO_WORKER=%ld %d %s", (long)getpid(),
+                 batch->case_megabytes, versions.engine);
   ambulo__text_append(&c->inputs, "AMBULO_INPUTS=");
   if (ambulo__sweep_case_inputs(batch->sweep, index, &c->inputs)) return 0;
   c->variable[kept++] = "OPENBLAS_NUM_THREADS=1";

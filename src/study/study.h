@@ -88,7 +88,7 @@ struct ambulo_sweep {
       front; /* the key `front`, without points; its axes are the weights; terms 0: none */
   /* what it was made from: hashes of the base problem as understood and of its file's text;
    * versions of Ambulo and NLopt */
-  char problem_hash[20], text_hash[20], version[64];
+  char problem_hash[20], text_hash[20], version[96];
   char *list; /* of a folder: cases.tsv, in which ids, names and texts of cases stand; NULL: none */
 
   /* of a sweep file alone */

@@ -189,11 +189,12 @@ static ambulo_status load_base(ambulo_sweep *s, ambulo_problem **base) {
     (void)snprintf(s->problem_hash, sizeof s->problem_hash, "%016llx", hash);
     (void)snprintf(s->text_hash, sizeof s->text_hash, "%016llx",
                    hash_of_line(ambulo__inputs_find(s->base_inputs, s->base)));
-    (void)snprintf(s->version, sizeof s->version, "ambulo %s, NLopt %s", versions.ambulo,
-                   versions.nlopt);
+    (void)snprintf(s->version, sizeof s->version, "ambulo %s, engine %.8s, NLopt %s",
+                   versions.ambulo, versions.engine, versions.nlopt);
     /* not the instruction set: the nodes of a cluster may differ in it */
     hash = ambulo__hash_word(AMBULO__HASH_START, hash);
     hash = ambulo__hash_text(hash, versions.ambulo);
+    hash = ambulo__hash_text(hash, versions.engine);
     s->base_hash = ambulo__hash_text(hash, versions.nlopt);
   }
   *base = problem;

@@ -23,6 +23,8 @@ static void test_versions(void **state) {
   assert_int_equal(sscanf(v.nlopt, "%d.%d.%d", &major, &minor, &patch), 3);
   assert_int_equal(sscanf(v.libyaml, "%d.%d.%d", &major, &minor, &patch), 3);
   assert_string_equal(v.instruction_set, ambulo__instruction_set());
+  assert_int_equal(strspn(v.engine, "0123456789abcdef"), 16);
+  assert_int_equal(strlen(v.engine), 16);
   assert_true(strlen(v.blas) > 3);
   assert_null(strchr(v.blas, '\n'));
 }

@@ -48,9 +48,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(
     const ambulo_problem *problem, const ambulo_result *result,
     const ambulo_report_options *options, const ambulo_allocator *allocator, char **text);
 
-/* The versions of what is running, as text. */
+/* The versions of what is running, as text; engine: a checksum of its sources, which tells builds
+ * of one version apart. */
 typedef struct ambulo_versions {
-  char ambulo[24], nlopt[24], libyaml[24], blas[64], instruction_set[24];
+  char ambulo[24], nlopt[24], libyaml[24], blas[64], instruction_set[24], engine[24];
 } ambulo_versions;
 AMBULO_API void ambulo_versions_get(ambulo_versions *versions);
 
