@@ -5,10 +5,9 @@
 #include "solver/result.h"
 #include "show/summary_json.h"
 
+#include "ambulo/parameters.h"
 #include "ambulo/tools/load.h"
 #include "formats/inputs.h"
-
-#include "ambulo/parameters.h"
 #include "base/arithmetic.h"
 #include "formats/json_text.h"
 #include "people/stride.h"
@@ -352,19 +351,6 @@ static void effort(ambulo__json *json, const ambulo_result *result) {
   nlopt(json, result);
 }
 
-static void versions(ambulo__json *json) {
-  ambulo_versions v;
-  ambulo_versions_get(&v);
-  ambulo__json_open(json, "versions", '{');
-  ambulo__json_text(json, "ambulo", v.ambulo);
-  ambulo__json_text(json, "nlopt", v.nlopt);
-  ambulo__json_text(json, "libyaml", v.libyaml);
-  ambulo__json_text(json, "blas", v.blas);
-  ambulo__json_text(json, "instruction_set", v.instruction_set);
-  ambulo__json_text(json, "engine", v.engine);
-  ambulo__json_close(json, '}');
-}
-
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
                           const ambulo_report_options *options, ambulo__text_buffer *text) {
   ambulo__json writer = {.text = text, .first = 1};
@@ -397,7 +383,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   resolution(json, ambulo_result_refinement(result));
   effort(json, result);
   ambulo__history_json(json, result);
-  versions(json);
+  ambulo__versions_json(json);
   ambulo__json_hash(json, "input_hash", ambulo_problem_hash(problem));
   ambulo__inputs_json(options->inputs ? options->inputs : ambulo_problem_inputs(problem), json);
   ambulo__json_close(json, '}');

@@ -12,6 +12,8 @@
 /* 16 digits of the SHA-256 of the engine's sources, which the build writes: two builds of one
  * version may be of two engines. */
 extern const char ambulo__engine_digest[];
+/* "versions" */
+void ambulo__versions_json(ambulo__json *json);
 
 /* "approaches"; nothing of a problem without. E_MEMORY. */
 ambulo_status ambulo__approach_json(ambulo__json *json, const ambulo_problem *problem,

@@ -40,6 +40,19 @@ void ambulo_versions_get(ambulo_versions *versions) {
   snprintf(versions->engine, sizeof versions->engine, "%s", ambulo__engine_digest);
 }
 
+void ambulo__versions_json(ambulo__json *json) {
+  ambulo_versions v;
+  ambulo_versions_get(&v);
+  ambulo__json_open(json, "versions", '{');
+  ambulo__json_text(json, "ambulo", v.ambulo);
+  ambulo__json_text(json, "nlopt", v.nlopt);
+  ambulo__json_text(json, "libyaml", v.libyaml);
+  ambulo__json_text(json, "blas", v.blas);
+  ambulo__json_text(json, "instruction_set", v.instruction_set);
+  ambulo__json_text(json, "engine", v.engine);
+  ambulo__json_close(json, '}');
+}
+
 enum { PER_INTERVAL = 10 };
 
 ambulo_status ambulo__approach_json(ambulo__json *json, const ambulo_problem *problem,
