@@ -52,7 +52,7 @@ MODELS = FOLDER / "models"
 
 
 def versions() -> dict:
-    """The versions of what is running: ambulo, nlopt, libyaml, blas, instruction_set."""
+    """The versions of what is running: ambulo, nlopt, libyaml, blas, instruction_set, engine."""
     struct = ffi.new("ambulo_versions *")
     lib.ambulo_versions_get(struct)
     return from_c(_records.Versions, struct).to_dict()
