@@ -76,22 +76,20 @@ typedef enum ambulo_algorithm {
   AMBULO_AUGLAG    /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
 
-/* Progress of a solve, given to the callback after every iteration, and at least every tenth
- * of a second during set-up, audit and explanation, where the objective or the violation may be
- * NAN: nothing to tell. */
+/* Progress of a solve, given to the callback after every iteration, and at least every tenth of a
+ * second in between, where the objective or the violation may be NAN: nothing to tell. */
 typedef struct ambulo_progress {
   int iteration, evaluations;
   double objective, violation; /* violation: worst over all rows, relative to their size */
   double seconds, time_limit;  /* since the start; AMBULO_OFF: no limit */
   double seconds_left;         /* estimate; AMBULO_OFF: unknown */
   const char *stage;           /* "set-up", "coarse grids", "solve", "audit", "explanation" */
-  int solve;                   /* with free parameters (parameters.h): the inner solve that this is
-                                  of, from 1 on; 0 without */
+  int solve;                   /* with free parameters: which inner solve this is, from 1 on */
   double best;                 /* ... their least F so far; NAN before there is one */
-  const ambulo_problem *problem; /* that is solved just now: the caller's, one on another grid, or
-                                    one with other numbers */
-  const double *point;           /* where its solve stands, [its variable_count]; both are valid
-                                    during the call */
+  /* What is solved, the caller's problem or one on another grid or of other numbers, and the point
+   * where that stands [variable_count]; both are there during the call. */
+  const ambulo_problem *problem;
+  const double *point;
 } ambulo_progress;
 
 #define AMBULO_MOST_STARTS 100
@@ -308,9 +306,8 @@ typedef struct ambulo_iteration {
 } ambulo_iteration;
 
 /* The way of a solve: a point for each inner solve of AUGLAG, or for each call of NLopt where it is
- * handed every row, grid by grid from the coarsest on; the last is the point that is returned, as
- * the audit finds it. Bounded: of a long solve one in so many of each grid, and the last of each
- * grid. But for `seconds` the same in every run. */
+ * handed every row, grid by grid from the coarsest on; the last is that returned, as audited. Of a
+ * long solve one in so many of each grid, and its last. But for `seconds` the same in every run. */
 typedef struct ambulo_history {
   const ambulo_iteration *items;
   int count;        /* 0: no solver ran */
@@ -329,8 +326,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve(
     const ambulo_problem *problem, const ambulo_options *options, const double *start,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_result **result);
 
-/* Audits control points x [variable_count] as if the solver had returned them. Arguments and errors
- * as for ambulo_solve. */
+/* Judges x [variable_count] as if the solver had returned it. Else as ambulo_solve. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_audit_point(
     const ambulo_problem *problem, const ambulo_options *options, const double *x,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_result **result);
