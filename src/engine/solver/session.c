@@ -119,8 +119,7 @@ ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_o
   if (most == 0.0 || bytes <= most) return AMBULO_OK;
   return ambulo__error(
       diagnostics, AMBULO_E_LIMIT, ambulo__nowhere,
-      "lower trajectory.intervals or time.intervals, or raise "
-      "solver.maximum_memory",
+      "lower trajectory.intervals or time.intervals, or raise solver.maximum_memory",
       "the solve takes about %.3g GB (%d unknowns, %d diagonals, %d rows); expected "
       "at most %.3g GB (%s)",
       bytes / gigabyte, p->variables, ambulo__metric_diagonals(p) + 1, p->rows, most / gigabyte,
@@ -185,8 +184,7 @@ int ambulo__candidates_take(const ambulo__candidates *c, double *x) {
   return start_wins;
 }
 
-/* at a point that satisfies the rows and is not shown to be optimal */
-enum { SECOND_LOOKS = 3 };
+enum { SECOND_LOOKS = 3 }; /* at a point that holds its rows and is not shown to be optimal */
 
 static ambulo_status check_start(const ambulo__session *s) {
   const double *x = s->result->x;
