@@ -1,7 +1,7 @@
 """Forces of the ground. On a contact with the force F and the moment M about a point o of its surface with
 the normal n, F_n = n . F:
 
-    cone       |F - F_n n| <= mu F_n, where F_n is above a hundredth of the weight
+    cone       |F - F_n n| - mu F_n <= 0, in body weights
     pressure   c = o + n x M / F_n inside of the sole, where F_n is above a twentieth
     pull       F_n >= 0
     work       int (F . v_c + (M - (c - o) x F) . w) dt = int (twist . wrench) dt = 0: a ground that stands
@@ -36,10 +36,9 @@ def cone(motion, ground):
     for load in ground:
         n = normal_of(motion, load)
         up = load.force @ n
-        loaded = up > 0.01 * motion.body.weight
-        if isinstance(mu, (int, float)) and loaded.any():
-            ratio = np.linalg.norm(load.force - up[:, None] * n, axis=1)[loaded] / (mu * up[loaded])
-            worst = larger(worst, (ratio.max(), f"{load.name} {at(motion, np.flatnonzero(loaded)[ratio.argmax()])}"))
+        if isinstance(mu, (int, float)):
+            beyond = (np.linalg.norm(load.force - up[:, None] * n, axis=1) - mu * up) / motion.body.weight
+            worst = larger(worst, (max(0.0, beyond.max()), f"{load.name} {at(motion, beyond.argmax())}"))
     return worst
 
 

@@ -28,7 +28,7 @@ COLUMNS = [
     ("torque", "", ".0e", 1e-9, "torques, relative to the largest"),
     ("root", "BW", ".0e", 1e-9, "forces and moments (times 1 m) at the root that nothing exerts, while something is in contact"),
     ("energy", "", ".0e", 1e-7, "power of torques, ground, hands and devices less dE/dt, relative to the largest sum of powers"),
-    ("cone", "", ".3f", 1.001, "friction: tangential force over mu times normal force"),
+    ("cone", "BW", ".4f", 1e-3, "friction: tangential force beyond mu times the normal force"),
     ("pull", "BW", ".4f", 0.005, "normal force below zero"),
     ("pressure", "mm", ".1f", 1.0, "centre of pressure outside the sole at its pitch, above .05 body weights"),
     ("ground work", "%", ".2f", 1.0, "work of the ground, of the joints' positive work"),
