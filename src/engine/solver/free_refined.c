@@ -32,7 +32,7 @@
 
 enum { ROUNDS = 4, MOST_GRIDS = ROUNDS + 1, MOST_STEP = 4 };
 static const double change = 1e-2;      /* of the objective */
-static const double same_valley = 1e-3; /* the same: by so much a solve may miss the coarser one */
+static const double same_valley = 1e-3; /* how far a finer solve may end above */
 
 typedef struct ambulo__refinement {
   ambulo_refinement shown;
