@@ -302,12 +302,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_limits(const ambulo_pro
                                                                 ambulo_limits *limits);
 /* Pairs of capsules that rows keep apart. Each function returns their number and, unless `pair` is
  * NULL, copies the index-th. For AMBULO_COLLISION_AUTOMATIC, _left_out lists the pairs that overlap
- * in the rest pose, and _too_far counts those too far apart to meet. */
+ * in the rest pose. */
 AMBULO_API int ambulo_problem_pairs(const ambulo_problem *problem, int index,
                                     ambulo_capsule_pair *pair);
 AMBULO_API int ambulo_problem_pairs_left_out(const ambulo_problem *problem, int index,
                                              ambulo_capsule_pair *pair);
-AMBULO_API int ambulo_problem_pairs_too_far(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_obstacle_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_obstacle *ambulo_problem_obstacle(const ambulo_problem *problem, int index);
 /* FNV-1a 64 of the resolved problem: model, schedule, terms, grid. */

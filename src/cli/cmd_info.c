@@ -240,11 +240,9 @@ static void print_obstacles(const ambulo_problem *problem) {
 }
 
 static void print_bodies(const ambulo_problem *problem) {
-  int far = ambulo_problem_pairs_too_far(problem);
   print_pairs(problem, "pairs of capsules that keep apart", ambulo_problem_pairs);
   print_pairs(problem, "left out, since they overlap in the rest pose",
               ambulo_problem_pairs_left_out);
-  if (far) printf("\n%d other pairs are too far apart to meet\n", far);
   print_obstacles(problem);
 }
 

@@ -298,46 +298,6 @@ static void nlopt(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_close(json, '}');
 }
 
-static void starts(ambulo__json *json, const ambulo_starts *s) {
-  if (!s) return;
-  ambulo__json_open(json, "starts", '{');
-  ambulo__json_integer(json, "count", s->count);
-  ambulo__json_integer(json, "solved", s->solved);
-  ambulo__json_integer(json, "intervals", s->intervals);
-  ambulo__json_integer(json, "chosen", s->chosen);
-  ambulo__json_open(json, "basins", '[');
-  for (int b = 0; b < s->basin_count; b++) {
-    ambulo__json_open(json, NULL, '{');
-    ambulo__json_number(json, "objective", s->basins[b].objective);
-    ambulo__json_integer(json, "found", s->basins[b].found);
-    ambulo__json_integer(json, "first", s->basins[b].first);
-    ambulo__json_number(json, "distance", s->basins[b].distance);
-    ambulo__json_close(json, '}');
-  }
-  ambulo__json_close(json, ']');
-  ambulo__json_close(json, '}');
-}
-
-/* the grids that were solved, and what finer ones would still bring */
-static void resolution(ambulo__json *json, const ambulo_refinement *r) {
-  ambulo__json_open(json, "resolution", '{');
-  ambulo__json_number(json, "estimate", r ? r->resolution : (double)NAN);
-  ambulo__json_open(json, "grids", '[');
-  for (int g = 0; r && g < r->grid_count; g++) {
-    const ambulo_refined_grid *grid = &r->grids[g];
-    ambulo__json_open(json, NULL, '{');
-    ambulo__json_integer(json, "intervals", grid->intervals);
-    ambulo__json_integer(json, "trajectory_intervals", grid->spline_intervals);
-    ambulo__json_number(json, "objective", grid->objective);
-    ambulo__json_text(json, "verdict", ambulo_verdict_name(grid->verdict));
-    ambulo__json_integer(json, "holds", grid->holds);
-    ambulo__json_integer(json, "kept", grid->kept);
-    ambulo__json_close(json, '}');
-  }
-  ambulo__json_close(json, ']');
-  ambulo__json_close(json, '}');
-}
-
 static void effort(ambulo__json *json, const ambulo_result *result) {
   const ambulo_timing *timing = ambulo_result_timing(result);
   ambulo__json_integer(json, "iterations", ambulo_result_iterations(result));
@@ -379,8 +339,8 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   explanation(json, result);
   list_sensitivities(json, options->sensitivities);
   sizes(json, problem);
-  starts(json, ambulo_result_starts(result));
-  resolution(json, ambulo_result_refinement(result));
+  ambulo__starts_json(json, result);
+  ambulo__resolution_json(json, result);
   effort(json, result);
   ambulo__history_json(json, result);
   ambulo__versions_json(json);

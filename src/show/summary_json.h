@@ -38,6 +38,12 @@ ambulo_status ambulo__economy_json(ambulo__json *json, const ambulo_problem *pro
  * ran. */
 void ambulo__history_json(ambulo__json *json, const ambulo_result *result);
 
+/* "starts": the valleys that several starts ended in; nothing where there was one. */
+void ambulo__starts_json(ambulo__json *json, const ambulo_result *result);
+
+/* "resolution": the grids that were solved, and what finer ones would still bring. */
+void ambulo__resolution_json(ambulo__json *json, const ambulo_result *result);
+
 /* the part of summary.json about what hands hold. */
 
 /* The member "held"; none where nothing is. E_MEMORY. */

@@ -202,6 +202,47 @@ static void list(ambulo__json *json, const char *key, const ambulo_history *hist
   ambulo__text_free(&line);
 }
 
+void ambulo__starts_json(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_starts *s = ambulo_result_starts(result);
+  if (!s) return;
+  ambulo__json_open(json, "starts", '{');
+  ambulo__json_integer(json, "count", s->count);
+  ambulo__json_integer(json, "solved", s->solved);
+  ambulo__json_integer(json, "intervals", s->intervals);
+  ambulo__json_integer(json, "chosen", s->chosen);
+  ambulo__json_open(json, "basins", '[');
+  for (int b = 0; b < s->basin_count; b++) {
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_number(json, "objective", s->basins[b].objective);
+    ambulo__json_integer(json, "found", s->basins[b].found);
+    ambulo__json_integer(json, "first", s->basins[b].first);
+    ambulo__json_number(json, "distance", s->basins[b].distance);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
+}
+
+void ambulo__resolution_json(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_refinement *r = ambulo_result_refinement(result);
+  ambulo__json_open(json, "resolution", '{');
+  ambulo__json_number(json, "estimate", r ? r->resolution : (double)NAN);
+  ambulo__json_open(json, "grids", '[');
+  for (int g = 0; r && g < r->grid_count; g++) {
+    const ambulo_refined_grid *grid = &r->grids[g];
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_integer(json, "intervals", grid->intervals);
+    ambulo__json_integer(json, "trajectory_intervals", grid->spline_intervals);
+    ambulo__json_number(json, "objective", grid->objective);
+    ambulo__json_text(json, "verdict", ambulo_verdict_name(grid->verdict));
+    ambulo__json_integer(json, "holds", grid->holds);
+    ambulo__json_integer(json, "kept", grid->kept);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
+}
+
 void ambulo__history_json(ambulo__json *json, const ambulo_result *result) {
   const ambulo_history *history = ambulo_result_history(result);
   if (history->count == 0) return;

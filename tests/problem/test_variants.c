@@ -189,8 +189,6 @@ static void pairs_left_out_are_still_told(void **state) {
   ambulo_problem *base = load("models/doorway.yaml", NULL, 0), *extended = NULL;
   ambulo_extension nothing = ambulo_extension_default();
   assert_int_equal(ambulo_problem_extend(base, &nothing, NULL, NULL, &extended), AMBULO_OK);
-  assert_true(ambulo_problem_pairs_too_far(base) > 0);
-  assert_int_equal(ambulo_problem_pairs_too_far(extended), ambulo_problem_pairs_too_far(base));
   assert_int_equal(ambulo_problem_pairs(extended, 0, NULL), ambulo_problem_pairs(base, 0, NULL));
   assert_int_equal(ambulo_problem_pairs_left_out(extended, 0, NULL),
                    ambulo_problem_pairs_left_out(base, 0, NULL));

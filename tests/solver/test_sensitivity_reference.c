@@ -126,12 +126,18 @@ static void gather(const ambulo_sensitivity_list *list, lines *all) {
 /* ------------------------------------------------------------------ comparing */
 
 static int is_quick(const char *problem) {
-  static const char *const quick[] = {
-      "fig5b_torque",           "hop",         "pendulum_swing",
-      "run_forefoot",           "squat",       "stairs_up",
-      "support/two_link_reach", "walk",        "walk_asymmetric",
-      "walk_tracking",          "walk_turn",   "walk_ankle_exoskeleton",
-      "support/walker_2d_step", "yardstick_12"};
+  static const char *const quick[] = {"fig5b_torque",
+                                      "pendulum_swing",
+                                      "run_forefoot",
+                                      "support/rigid_squat",
+                                      "support/rigid_stairs_up",
+                                      "support/two_link_reach",
+                                      "walk",
+                                      "walk_asymmetric",
+                                      "support/rigid_walk_turn",
+                                      "walk_ankle_exoskeleton",
+                                      "support/walker_2d_step",
+                                      "yardstick_12"};
   for (size_t i = 0; i < sizeof quick / sizeof *quick; i++)
     if (strcmp(problem, quick[i]) == 0) return 1;
   return getenv("AMBULO_LONG") != NULL;

@@ -134,10 +134,6 @@ int ambulo_problem_pairs_left_out(const ambulo_problem *p, int index, ambulo_cap
   return nth(pairs->left, pairs->left_count, index, pair);
 }
 
-int ambulo_problem_pairs_too_far(const ambulo_problem *p) {
-  return p ? ambulo__problem_root(p)->pairs.too_far : 0;
-}
-
 int ambulo_problem_obstacle_count(const ambulo_problem *p) {
   return p ? p->definition.obstacle_count : 0;
 }
