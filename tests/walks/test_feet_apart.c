@@ -88,7 +88,7 @@ static void feet_keep_their_gap(void **state) {
        {"constraints.clearance.feet=0.02"},
        1,
        0.02,
-       -0.07},
+       -0.065},
   };
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
     int count = walks[i].settings;
