@@ -12,8 +12,9 @@ import ambulo
 
 TOP = Path(os.environ.get("AMBULO_TOP", Path(__file__).resolve().parents[2]))
 REACH = ambulo.MODELS / "two_link_reach.yaml"
+COARSE_REACH = TOP / "tests" / "support" / "two_link_reach.yaml"  # off between its nodes
 WALK = ambulo.MODELS / "walk_normal.yaml"
-YARDSTICK = ambulo.MODELS / "yardstick_12.yaml"
+YARDSTICK = ambulo.MODELS / "yardstick_12.yaml"  # optimal at its nodes only
 
 
 def optional(name):

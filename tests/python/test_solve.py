@@ -12,7 +12,7 @@ import warnings
 
 import ambulo
 import numpy
-from support import REACH, TOP, WALK, YARDSTICK, Case, arm, effort, some_point, swing
+from support import COARSE_REACH, REACH, TOP, WALK, YARDSTICK, Case, arm, effort, some_point, swing
 
 PROGRAM = os.environ.get("AMBULO") or shutil.which("ambulo") or str(TOP / "build" / "ambulo")
 
@@ -62,7 +62,7 @@ class Results(Case):
         self.assertEqual(len(given.history["iteration"]), 0)
 
     def test_between_the_nodes(self):
-        with ambulo.Problem.load(REACH) as problem:
+        with ambulo.Problem.load(COARSE_REACH) as problem:
             with warnings.catch_warnings(record=True) as told:
                 warnings.simplefilter("always")
                 result = problem.solve()
@@ -87,7 +87,7 @@ class Results(Case):
 
     def test_sensitivities_are_derivatives(self):
         key = "ends.final.elbow"
-        with ambulo.Problem.load(REACH) as problem:
+        with ambulo.Problem.load(COARSE_REACH) as problem:
             result = problem.solve(optimality_tolerance=1e-7)
             known = {item.name: item for item in result.sensitivities()}
             step = 1e-4  # rad
@@ -95,7 +95,7 @@ class Results(Case):
             around = []
             for sign in (-1, 1):
                 degrees = numpy.degrees(value + sign * step)
-                with ambulo.Problem.load(REACH, {key: float(degrees)}) as other:
+                with ambulo.Problem.load(COARSE_REACH, {key: float(degrees)}) as other:
                     around.append(other.solve(result.x, optimality_tolerance=1e-7).objective)
             self.assertAlmostEqual(known[key].derivative, (around[1] - around[0]) / (2 * step), 3)
 
@@ -131,7 +131,7 @@ class Results(Case):
             self.assertIs(result.ending_code, ambulo.Ending.ITERATIONS)
             options = problem.options()
             options.algorithm = "auglag"
-            self.assertTrue(problem.solve(options=options).is_solution)
+            self.assertIs(problem.solve(options=options).verdict, ambulo.Verdict.OPTIMAL_AT_NODES)
             with self.assertRaisesRegex(AttributeError, "time_limit"):
                 problem.solve(time_limt=3)
             self.fails("E_ARGUMENT", problem.solve, feasibility_tolerance=-1)
@@ -164,7 +164,7 @@ class Progress(Case):
             self.assertIs(result.verdict, ambulo.Verdict.INTERRUPTED)
             self.assertEqual(told[-1].iteration, 2)
             self.assertIn("solve", {now.stage for now in told})
-            self.assertTrue(problem.solve(result.x).is_solution)
+            self.assertIs(problem.solve(result.x).verdict, ambulo.Verdict.OPTIMAL_AT_NODES)
 
     def test_an_exception_ends_the_solve(self):
         def progress(now):
@@ -175,7 +175,7 @@ class Progress(Case):
             with self.assertRaisesRegex(LookupError, "enough") as caught:
                 problem.solve(progress=progress)
             self.assertEqual(caught.exception.result.x.shape, (problem.control_point_count, 18))
-            self.assertTrue(problem.solve().is_solution)
+            self.assertIs(problem.solve().verdict, ambulo.Verdict.OPTIMAL_AT_NODES)
 
     def test_an_exception_of_a_term_ends_the_solve(self):
         calls = []
