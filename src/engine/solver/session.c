@@ -3,7 +3,8 @@
  *
  * Whatever happened, the result's numbers are those of the audit (solver/audit.c). A point that
  * satisfies the rows and is not shown to be optimal is the next start: AUGLAG begins afresh there,
- * with the damping and the penalty of a start, and often sees further.
+ * with the damping and the weak penalty of a start from anywhere, which lets go of the rows for a
+ * while and often leads into a better valley. The best point of all is kept.
  */
 #include "solver/session.h"
 
@@ -238,9 +239,9 @@ static ambulo_status look_again(ambulo__session *s) {
   int able = s->engine->setup->rows->regular;
   for (int k = 0; k < SECOND_LOOKS && !status; k++) {
     double before = r->objective;
-    int cut = ambulo__run_over(&s->run) || s->run.ending == AMBULO_ENDING_ITERATIONS;
+    int cut = ambulo__run_over(&s->run) || ambulo__ended_by_cap(&s->run);
     if (!able || cut || r->verdict != AMBULO_FEASIBLE) break;
-    status = ambulo__pipeline(s->engine, AMBULO__NEAR, r->x);
+    status = ambulo__pipeline(s->engine, AMBULO__FAR, r->x);
     if (status && status != AMBULO_E_NUMERIC) return status;
     ambulo__candidates_offer(&s->candidates, s->engine, r->x);
     (void)ambulo__candidates_take(&s->candidates, r->x);
