@@ -368,7 +368,7 @@ typedef struct ambulo_starts {
   int chosen; /* the start whose solve on the problem's own grid is the result: 0, or the first of
                  the best valley where that came to less */
 } ambulo_starts;
-/* NULL for one start. */
+/* NULL for one start that needed no second look. */
 AMBULO_API const ambulo_starts *ambulo_result_starts(const ambulo_result *result);
 /* A grid that ambulo_solve_refined solved. */
 typedef struct ambulo_refined_grid {

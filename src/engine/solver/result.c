@@ -196,6 +196,22 @@ ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_option
   return ambulo__is_limit(ending) ? AMBULO_LIMIT_REACHED : AMBULO_INFEASIBLE;
 }
 
+/* KKT residual that is far from an optimum, whatever tolerance is asked for */
+static const double far_from_optimal = 1e-3;
+
+int ambulo__result_is_better(const ambulo_result *one, const ambulo_result *other) {
+  int holds = ambulo_verdict_is_solution(one->verdict);
+  if (holds != ambulo_verdict_is_solution(other->verdict)) return holds;
+  if (holds) return one->objective < other->objective;
+  return ambulo__relative(&one->audit.violation) < ambulo__relative(&other->audit.violation);
+}
+
+int ambulo__result_leaves_doubts(const ambulo_options *o, const ambulo_result *r) {
+  if (o->algorithm == AMBULO_SLSQP || ambulo__is_limit(r->ending_code)) return 0;
+  if (r->verdict == AMBULO_FEASIBLE) return r->audit.kkt > far_from_optimal;
+  return r->verdict == AMBULO_NOT_CONVERGED;
+}
+
 /* --------------------------------------------------------------------- reports */
 
 void ambulo__report_families(const ambulo_result *r, double tolerance, ambulo_diagnostics *list) {

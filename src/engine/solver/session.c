@@ -3,8 +3,8 @@
  *
  * Whatever happened, the result's numbers are those of the audit (solver/audit.c). A point that
  * satisfies the rows and is not shown to be optimal is the next start: AUGLAG begins afresh there,
- * with the damping and the weak penalty of a start from anywhere, which lets go of the rows for a
- * while and often leads into a better valley. The best point of all is kept.
+ * in turns with the penalty that keeps to the rows and with the weak one of a start from anywhere,
+ * which lets go of them for a while and often leads into a better valley. The best point is kept.
  */
 #include "solver/session.h"
 
@@ -185,7 +185,7 @@ int ambulo__candidates_take(const ambulo__candidates *c, double *x) {
   return start_wins;
 }
 
-enum { SECOND_LOOKS = 3 }; /* at a point that holds its rows and is not shown to be optimal */
+enum { SECOND_LOOKS = 4 }; /* at a point that holds its rows and is not shown to be optimal */
 
 static ambulo_status check_start(const ambulo__session *s) {
   const double *x = s->result->x;
@@ -236,17 +236,18 @@ static ambulo_status judge(ambulo__session *s) {
 static ambulo_status look_again(ambulo__session *s) {
   ambulo_result *r = s->result;
   ambulo_status status = AMBULO_OK;
-  int able = s->engine->setup->rows->regular;
+  int able = s->engine->setup->rows->regular, idle = 0;
   for (int k = 0; k < SECOND_LOOKS && !status; k++) {
     double before = r->objective;
     int cut = ambulo__run_over(&s->run) || ambulo__ended_by_cap(&s->run);
     if (!able || cut || r->verdict != AMBULO_FEASIBLE) break;
-    status = ambulo__pipeline(s->engine, AMBULO__FAR, r->x);
+    status = ambulo__pipeline(s->engine, k % 2 ? AMBULO__FAR : AMBULO__NEAR, r->x);
     if (status && status != AMBULO_E_NUMERIC) return status;
     ambulo__candidates_offer(&s->candidates, s->engine, r->x);
     (void)ambulo__candidates_take(&s->candidates, r->x);
     status = judge(s);
-    if (r->objective >= before && r->verdict != AMBULO_OPTIMAL) break;
+    idle = r->objective < before ? 0 : idle + 1;
+    if (idle == 2) break;
   }
   return status;
 }

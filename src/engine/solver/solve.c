@@ -9,11 +9,13 @@
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (session.c).
  *
+ * Where the own start leads to a point that holds its rows and is far from optimal, or to a near
+ * miss that no contradiction explains, SECOND_STARTS starts are a second look.
+ *
  * From several starts: each is solved on a coarse grid, and the best end is a start on the
- * problem's own. So is start 0, whatever it came to on the coarse grid: of both results the better
- * one is returned, and several starts are never worse than one. Start 0 is the start pose, at rest.
- * Start k > 0 has, for each coordinate that is not a translation of the root, the curve over s =
- * t/T
+ * problem's own. So is start 0, the start pose at rest, whatever it came to on the coarse grid: the
+ * better result is returned, and several starts are never worse than one. Start k > 0 has, for each
+ * coordinate that is not a translation of the root, the curve over s = t/T
  *
  *     q(s) = q_0 + A (r_0 + r_1 cos 2 pi s + r_2 sin 2 pi s),   r uniform in [-1, 1],
  *     A = .15 of the coordinate's range, at most .3 rad or m
@@ -50,7 +52,7 @@
 static const double near_rows = 1e-3;                       /* relative to their sizes */
 static const double amplitude = 0.15, most_amplitude = 0.3; /* of a range; rad, m */
 static const double like_objective = 1e-3, like_points = 0.05;
-enum { LEAST_INTERVALS = 12, LEAST_SPLINE = 6 };
+enum { LEAST_INTERVALS = 12, LEAST_SPLINE = 6, SECOND_STARTS = 3 };
 
 /* ------------------------------------------------------------------- one start */
 
@@ -148,16 +150,17 @@ static ambulo_status solve_once(const ambulo_problem *problem, const ambulo_opti
   return ambulo__session_end(&s, status, result);
 }
 
-/* the valleys in which they end. */
 typedef struct ambulo__valleys {
   ambulo_starts shown;
   ambulo_basin basin[AMBULO_MOST_STARTS];
+  int taken; /* the basin that is a start on the problem's own grid */
 } ambulo__valleys;
 
 typedef struct search_of_starts {
   const ambulo_problem *problem; /* the coarse one */
   ambulo_options options;
   ambulo_allocator allocator;
+  int again;                            /* a second look: the own start has led nowhere */
   double begin, *x[AMBULO_MOST_STARTS]; /* where the valleys' first starts ended; [n] */
   ambulo__valleys *valleys;
 } search_of_starts;
@@ -187,8 +190,6 @@ static void fill_start(const ambulo_problem *p, int k, double *x) {
     }
   }
 }
-
-/* ----------------------------------------------------------------- the valleys */
 
 static double distance(const search_of_starts *s, const double *a, const double *b) {
   double sum = 0.0;
@@ -244,10 +245,14 @@ static void sort(search_of_starts *s) {
 
 /* ------------------------------------------------------------------- the search */
 
-/* seconds left of the limit, at least one poll; off: there is no limit */
+/* seconds left of the limit, at least one poll; as it is where there is none */
 static double time_left(const search_of_starts *s) {
-  if (isnan(s->options.time_limit)) return AMBULO_OFF;
+  if (!(s->options.time_limit > 0.0)) return s->options.time_limit;
   return fmax(1e-3, s->options.time_limit - (ambulo__seconds_now() - s->begin));
+}
+
+static int is_stopped(const ambulo_result *r) {
+  return r->ending_code == AMBULO_ENDING_CALLER || r->ending_code == AMBULO_ENDING_TIME;
 }
 
 static ambulo_status run(search_of_starts *s) {
@@ -262,8 +267,7 @@ static ambulo_status run(search_of_starts *s) {
     fill_start(s->problem, k, x);
     status = solve_once(s->problem, &options, k ? x : NULL, 0, &s->allocator, NULL, &result);
     if (!status) status = book(s, k, result);
-    stopped = !status && (result->ending_code == AMBULO_ENDING_CALLER ||
-                          result->ending_code == AMBULO_ENDING_TIME);
+    stopped = !status && is_stopped(result);
     ambulo_result_free(result);
   }
   ambulo__free(&s->allocator, x);
@@ -282,11 +286,12 @@ static ambulo_status coarse(const ambulo_problem *p, const ambulo_allocator *a,
 }
 
 static ambulo_status carry(const search_of_starts *s, const ambulo_problem *to, double **start) {
+  int b = s->valleys->taken;
   *start = NULL;
-  if (s->valleys->shown.basin_count == 0 || s->valleys->basin[0].first == 0) return AMBULO_OK;
+  if (b >= s->valleys->shown.basin_count || s->valleys->basin[b].first == 0) return AMBULO_OK;
   *start = ambulo__alloc(&s->allocator, (size_t)to->variables, sizeof **start);
   if (!*start) return AMBULO_E_MEMORY;
-  return ambulo_problem_transfer(s->problem, s->x[0], to, *start);
+  return ambulo_problem_transfer(s->problem, s->x[b], to, *start);
 }
 
 /* *start, to be freed by the caller with the allocator, is where the best of them ends, carried
@@ -304,6 +309,7 @@ static ambulo_status solve_starts(search_of_starts *s, const ambulo_problem *pro
     sort(s);
     s->valleys->shown.intervals = grid->definition.intervals;
     s->valleys->shown.basins = s->valleys->basin;
+    if (s->again && s->valleys->basin[0].first == 0) s->valleys->taken = 1;
     status = carry(s, problem, start);
   }
   for (int b = 0; b < AMBULO_MOST_STARTS; b++) ambulo__free(&s->allocator, s->x[b]);
@@ -311,62 +317,62 @@ static ambulo_status solve_starts(search_of_starts *s, const ambulo_problem *pro
   return status;
 }
 
-/* ----------------------------------------------------------------- entry points */
-
-/* a result with what is to be said of it */
 typedef struct answer {
   ambulo_result *result;
-  ambulo_diagnostics *messages;
+  ambulo_diagnostics *messages; /* about it */
 } answer;
-
-static void free_answer(answer *a) {
-  ambulo_result_free(a->result);
-  ambulo_diagnostics_free(a->messages);
-}
 
 static ambulo_status answer_from(const search_of_starts *s, const ambulo_problem *problem,
                                  const double *start, answer *out) {
   ambulo_options options = s->options;
-  options.time_limit = time_left(s);
+  if (s->valleys) options.time_limit = time_left(s);
   out->messages = ambulo_diagnostics_create(&s->allocator);
   if (!out->messages) return AMBULO_E_MEMORY;
   return solve_once(problem, &options, start, 1, &s->allocator, out->messages, &out->result);
 }
 
-/* one that holds its rows, then the lower objective, then the smaller violation */
-static int is_better(const ambulo_result *one, const ambulo_result *other) {
-  int holds = ambulo_verdict_is_solution(one->verdict);
-  if (holds != ambulo_verdict_is_solution(other->verdict)) return holds;
-  if (holds) return one->objective < other->objective;
-  return ambulo__relative(&one->audit.violation) < ambulo__relative(&other->audit.violation);
-}
-
-static int is_stopped(const ambulo_result *r) {
-  return r->ending_code == AMBULO_ENDING_CALLER || r->ending_code == AMBULO_ENDING_TIME;
+/* from the other starts' best: where that is better, it changes places with the own one */
+static ambulo_status challenge(search_of_starts *s, const ambulo_problem *problem,
+                               const double *start, answer *own) {
+  answer best = {0}, other = *own;
+  if (!start || is_stopped(own->result)) return AMBULO_OK;
+  ambulo_status status = answer_from(s, problem, start, &best);
+  if (!status && ambulo__result_is_better(best.result, own->result)) {
+    *own = best;
+    best = other;
+    s->valleys->shown.chosen = s->valleys->basin[s->valleys->taken].first;
+  }
+  ambulo_result_free(best.result);
+  ambulo_diagnostics_free(best.messages);
+  return status;
 }
 
 /* the better of the solver's own start and of the best of the others */
+static ambulo_status compare(search_of_starts *s, const ambulo_problem *problem, answer *own) {
+  double *start = NULL;
+  int several = s->options.starts > 1;
+  ambulo_status status = several ? solve_starts(s, problem, &start) : AMBULO_OK;
+  if (!status) status = answer_from(s, problem, NULL, own);
+  s->again = !status && !several && ambulo__result_leaves_doubts(&s->options, own->result);
+  if (s->again) {
+    s->options.starts = SECOND_STARTS;
+    status = solve_starts(s, problem, &start);
+  }
+  if (!status) status = challenge(s, problem, start, own);
+  ambulo__free(&s->allocator, start);
+  return s->again && status != AMBULO_E_MEMORY ? AMBULO_OK : status;
+}
+
 static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambulo_options *options,
                                        const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo_result **result) {
   search_of_starts s = {.options = *options, .begin = ambulo__seconds_now()};
-  answer own = {0}, best = {0};
-  double *start = NULL;
+  answer own = {0};
   s.allocator = ambulo__allocator_or_default(allocator);
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = solve_starts(&s, problem, &start);
-  if (!status) status = answer_from(&s, problem, NULL, &own);
-  if (!status && start && !is_stopped(own.result)) status = answer_from(&s, problem, start, &best);
-  if (!status && best.result && is_better(best.result, own.result)) {
-    answer other = own;
-    own = best;
-    best = other;
-    s.valleys->shown.chosen = s.valleys->basin[0].first;
-  }
+  ambulo_status status = compare(&s, problem, &own);
   ambulo__diagnostics_append(own.messages, diagnostics);
-  free_answer(&best);
   ambulo_diagnostics_free(own.messages);
-  ambulo__free(&s.allocator, start);
   if (status) {
     ambulo_result_free(own.result);
     ambulo__free(&s.allocator, s.valleys);
@@ -385,8 +391,7 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   ambulo_options own;
   ambulo_status status = ambulo__options_own(problem, options, diagnostics, &own);
   if (status) return status;
-  if (!start && own.starts > 1)
-    return solve_from_starts(problem, &own, allocator, diagnostics, result);
+  if (!start) return solve_from_starts(problem, &own, allocator, diagnostics, result);
   return solve_once(problem, &own, start, 1, allocator, diagnostics, result);
 }
 
