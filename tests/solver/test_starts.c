@@ -78,7 +78,8 @@ static void what_leaves_doubts_has_a_second_look(void **state) {
   ambulo_problem_free(problem);
 
   ambulo_options options = ambulo_options_default();
-  ambulo_result r = {.verdict = AMBULO_FEASIBLE, .ending_code = AMBULO_ENDING_STALLED};
+  ambulo_result r = {
+      .verdict = AMBULO_FEASIBLE, .ending_code = AMBULO_ENDING_STALLED, .objective = 1.0};
   r.audit.kkt = 2e-3;
   assert_true(ambulo__result_leaves_doubts(&options, &r));
   r.audit.kkt = 9e-4; /* of a tolerance below the usual one */

@@ -198,6 +198,8 @@ ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_option
 
 /* KKT residual that is far from an optimum, whatever tolerance is asked for */
 static const double far_from_optimal = 1e-3;
+/* objective of a motion at rest, whose gradient is rounding and leads anywhere */
+static const double at_rest = 1e-15;
 
 int ambulo__result_is_better(const ambulo_result *one, const ambulo_result *other) {
   int holds = ambulo_verdict_is_solution(one->verdict);
@@ -208,7 +210,8 @@ int ambulo__result_is_better(const ambulo_result *one, const ambulo_result *othe
 
 int ambulo__result_leaves_doubts(const ambulo_options *o, const ambulo_result *r) {
   if (o->algorithm == AMBULO_SLSQP || ambulo__is_limit(r->ending_code)) return 0;
-  if (r->verdict == AMBULO_FEASIBLE) return r->audit.kkt > far_from_optimal;
+  if (r->verdict == AMBULO_FEASIBLE)
+    return r->audit.kkt > far_from_optimal && fabs(r->objective) > at_rest;
   return r->verdict == AMBULO_NOT_CONVERGED;
 }
 
