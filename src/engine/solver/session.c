@@ -1,11 +1,9 @@
-/* solver/session.c - one call from its arguments to its result: its options, its memory, the points
- * it came by, their audit.
+/* solver/session.c - one call: its options, its memory, the points it came by, their audit.
  *
- * Whatever happened, the result's numbers are those of the audit (solver/audit.c). A point that
- * satisfies the rows and is not shown to be optimal is the next start: AUGLAG begins afresh there,
- * in turns with the penalty that keeps to the rows and with the weak one of a start from anywhere,
- * which lets go of them for a while and often leads into a better valley. The best point is kept.
- */
+ * The result's numbers are those of the audit (solver/audit.c). A point that holds its rows and is
+ * not shown to be optimal is the next start: AUGLAG begins afresh there, in turns with the penalty
+ * that keeps to the rows and with the weak one of a start from anywhere, which lets go of them for
+ * a while and often leads into a better valley. The best point is kept. */
 #include "solver/session.h"
 
 #include "base/alloc.h"
