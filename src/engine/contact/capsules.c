@@ -326,7 +326,8 @@ int ambulo__solid_curvature(const ambulo__solid *solid, const double *y, int str
                             double rows[2][AMBULO__SOLID_CHANNELS]) {
   memset(rows, 0, 2 * sizeof *rows);
   apart d = apart_of(solid, y, stride, solid->weight);
-  int s_moves = d.at[0] > 0.0 && d.at[0]<1.0, t_moves = d.at[1]> 0.0 && d.at[1] < 1.0;
+  int s_moves = d.at[0] > 0.0 && d.at[0] < 1.0;
+  int t_moves = d.at[1] > 0.0 && d.at[1] < 1.0;
   double a = d.square[0], c = d.square[1], b = d.square[2], size = sqrt(ambulo__dot(d.e, d.e));
   int moving = solid->kind == AMBULO__SOLID_MOVING;
   if (solid->kind == AMBULO__SOLID_CARRIED || !(size > 0.0) || (!s_moves && !t_moves)) return 0;
