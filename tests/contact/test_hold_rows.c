@@ -2,6 +2,7 @@
  * by row against differences, in any pose.
  */
 #include "ambulo/tools/tools.h"
+#include "contact/row_families.h"
 #include "problem/nlp.h"
 #include "support/test.h"
 
@@ -100,10 +101,27 @@ static void gradients_are_those_of_differences(void **state) {
   ambulo_problem_free(p);
 }
 
+/* a box fixed in the world and turned by `turn` about up, grown by what is carried: by its half
+ * size along each of the fixed one's axes */
+static void what_is_carried_makes_the_other_larger(void **state) {
+  (void)state;
+  for (double turn = 0.0; turn < 1.6; turn += 0.4) {
+    double c = cos(turn), s = sin(turn);
+    ambulo__solid box = {.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .half = {0.1, 0.2, 0.3}};
+    ambulo__solid fixed = {.axes = {{c, s, 0}, {-s, c, 0}, {0, 0, 1}}, .half = {0.4, 0.5, 0.6}};
+    ambulo__solid sum = ambulo__solid_carried(&box, &fixed, 0.01);
+    assert_close(sum.half[0], 0.4 + 0.1 * fabs(c) + 0.2 * fabs(s), 1e-12);
+    assert_close(sum.half[1], 0.5 + 0.1 * fabs(s) + 0.2 * fabs(c), 1e-12);
+    assert_close(sum.half[2], 0.9, 1e-12);
+    assert_close(sum.distance, 0.01, 0.0);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(arms_hold_it_and_the_rest_keeps_clear),
       cmocka_unit_test(gradients_are_those_of_differences),
+      cmocka_unit_test(what_is_carried_makes_the_other_larger),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,6 +95,24 @@ static void what_leaves_doubts_has_a_second_look(void **state) {
   assert_false(ambulo__result_leaves_doubts(&options, &r));
 }
 
+/* who holds its rows; then who costs less; of two that do not hold, who is off by less */
+static void the_better_of_two_results(void **state) {
+  (void)state;
+  ambulo_result dear = {.verdict = AMBULO_OPTIMAL, .objective = 2.0}, cheap = dear, off = dear, far;
+  dear.audit.violation.size = cheap.audit.violation.size = off.audit.violation.size = 1.0;
+  cheap.objective = 1.0;
+  off.verdict = AMBULO_NOT_CONVERGED;
+  off.objective = 0.5;
+  off.audit.violation.worst = 1e-3;
+  far = off;
+  far.objective = 0.1;
+  far.audit.violation.worst = 1e-2;
+  const ambulo_result *order[] = {&cheap, &dear, &off, &far};
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      assert_int_equal(ambulo__result_is_better(order[i], order[j]), i < j);
+}
+
 static void every_run_is_the_same(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("support/walker_2d_step");
@@ -214,6 +232,7 @@ int main(void) {
                                      cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
                                      cmocka_unit_test(several_are_never_worse_than_one),
                                      cmocka_unit_test(what_leaves_doubts_has_a_second_look),
+                                     cmocka_unit_test(the_better_of_two_results),
                                      cmocka_unit_test(every_run_is_the_same),
                                      cmocka_unit_test(the_own_start_stays_what_it_is),
                                      cmocka_unit_test(a_stop_keeps_what_is_there),
