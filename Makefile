@@ -140,7 +140,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage \
+  sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage mutate \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-hardening lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
@@ -170,7 +170,8 @@ help:
 	@echo 'make check-threads  eight threads on shared objects, under the thread sanitizer'
 	@echo 'make fuzz         every reader of files by libFuzzer (clang), 10 s each: SECONDS=600 TARGETS="model batch"'
 	@echo 'make valgrind     a few test programs under valgrind'
-	@echo 'make coverage     line coverage of the tests, by folder'
+	@echo 'make coverage     lines and branches that the tests reach, by room'
+	@echo 'make mutate       mistaken changes that the tests of a room do not see: ROOM=solver COUNT=15 SEED=1'
 	@echo 'make lint         format, static analysis, folder order, sizes, symbols, callers, test mirror'
 	@echo 'make format       clang-format everything'
 	@echo 'make bench        time every layer; results and changes in bench/results'
@@ -207,7 +208,7 @@ compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(filter s
 
 define compile_kernel
 	@mkdir -p $(@D)
-	$(call compile,$(if $(filter release,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))) \
+	$(call compile,$(if $(filter release cov,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))) \
 	  $(if $(filter fuzz tsan,$(VARIANT)),-fno-sanitize=all))
 endef
 $(OUT)/obj/src/engine/mechanics/kernels_%.o: src/engine/mechanics/kernels_%.c $(OUT)/obj/flags
@@ -430,7 +431,15 @@ run-engine-tests: $(ENGINE_TESTS)
 
 coverage: build/.ready-test
 	+@$(MAKE) --no-print-directory VARIANT=cov run-tests
-	@.setup/coverage.sh build/cov
+	@.setup/coverage.py build/cov
+
+# mistaken changes at random, one at a time, in a copy of the tree: which do the tests of their room not see?
+ROOM ?= base
+COUNT ?= 15
+SEED ?= 1
+mutate: build/.ready-test
+	$(submake) all test-objects
+	@tests/support/mutate.py --room $(ROOM) --count $(COUNT) --seed $(SEED)
 
 # -------------------------------------------------------------------- lint
 

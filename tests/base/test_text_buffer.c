@@ -17,7 +17,10 @@ static void appends_follow_one_another(void **state) {
   assert_memory_equal(ambulo__text_data(&text), "a=0.1;x[42]\0end", 16);
   assert_int_equal(ambulo__text_status(&text), AMBULO_OK);
   ambulo__text_clear(&text);
+  assert_int_equal(text.length, 0);
   assert_string_equal(ambulo__text_data(&text), "");
+  ambulo__text_append(&text, "anew");
+  assert_string_equal(ambulo__text_data(&text), "anew");
   ambulo__text_free(&text);
   ambulo__text_free(&text);
 }
