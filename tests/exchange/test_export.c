@@ -1,6 +1,7 @@
 /* ambulo_export: models of random trees come back by the import with the same torques; motions;
  * what is refused; files whole or not at all. */
 #include "mechanics/lagrangian.h"
+#include "model/model.h"
 #include "ambulo/tools/export.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
@@ -272,6 +273,40 @@ static void refusals(void **state) {
   assert_int_equal(entries_in(*state), 1);
 }
 
+/* a problem is of the same body: its links by name, its coordinates, feet and patches by number */
+static void a_problem_of_another_body(void **state) {
+  ambulo_problem *problem = NULL;
+  ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
+  assert_int_equal(
+      ambulo_problem_load("tests/support/walker_2d_step.yaml", NULL, 0, NULL, NULL, &problem),
+      AMBULO_OK);
+  o.problem = problem;
+  ambulo_model *model = NULL;
+  assert_int_equal(ambulo_model_load("models/walker_2d.yaml", NULL, NULL, NULL, &model), AMBULO_OK);
+  const ambulo_model own = *model;
+  ambulo_link links[64];
+  memcpy(links, own.links, (size_t)own.link_count * sizeof *links);
+  links[0].name = "other";
+  for (int other = 0; other < 6; other++) {
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    *model = own;
+    if (other == 1) model->link_count--;
+    if (other == 2) model->coordinate_count--;
+    if (other == 3) model->links = links;
+    if (other == 4) model->foot_count--;
+    if (other == 5) model->patch_count--;
+    ambulo_status status =
+        ambulo_export(model, NULL, scratch_path(state, other ? "none" : "own"), &o, NULL, list);
+    assert_int_equal(status, other ? AMBULO_E_ARGUMENT : AMBULO_OK);
+    if (other) assert_message(list, 0, "the problem belongs to another body, 'walker_2d'");
+    ambulo_diagnostics_free(list);
+  }
+  assert_int_equal(entries_in(*state), 1);
+  *model = own;
+  ambulo_model_free(model);
+  ambulo_problem_free(problem);
+}
+
 static void what_is_lost_is_told(void **state) {
   ambulo_model *model = walker(), *up = NULL;
   ambulo_conditions slope = ambulo_conditions_default();
@@ -282,6 +317,11 @@ static void what_is_lost_is_told(void **state) {
   assert_int_equal(ambulo_export(up, NULL, scratch_path(state, "u"), &o, NULL, list), AMBULO_OK);
   assert_message(list, 0, "a URDF has no gravity; the model's is -0.979366 0 -9.76099 m/s^2");
   assert_message(list, 1, "limits of torque or speed of 6 coordinates ('hip_flexion_r')");
+  ambulo_diagnostics_free(list);
+  list = ambulo_diagnostics_create(NULL); /* gravity as a URDF's reader has it is nothing lost */
+  assert_int_equal(ambulo_export(model, NULL, scratch_path(state, "u"), &o, NULL, list), AMBULO_OK);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_message(list, 0, "limits of torque or speed of 6 coordinates ('hip_flexion_r')");
   ambulo_diagnostics_free(list);
   ambulo_model_free(up);
   ambulo_model_free(model);
@@ -346,6 +386,7 @@ int main(void) {
       TEST(an_archive),
       TEST(arguments),
       TEST(refusals),
+      TEST(a_problem_of_another_body),
       TEST(what_is_lost_is_told),
       TEST(nothing_is_written_over),
       TEST(memory_may_run_out_anywhere),

@@ -67,8 +67,10 @@ static void names(void **state) {
       "<body name='none'><joint name='q-1'/><joint name='q 1' axis='1 0 0'/><geom size='1'/></body>"
       "<body name='leg'><joint axis='1 1 0'/><geom size='1'/></body>"
       "<body name='leg.turn'><joint axis='1 0 0'/><geom size='1'/></body>"
+      "<body name='azAZ09_-.x@[`{/:'><joint axis='1 0 0'/><geom size='1'/></body>"
       "</worldbody></mujoco>");
   assert_true(ambulo_model_find_link(c.model, "leg_turn") >= 0); /* a row of leg has the other */
+  assert_true(ambulo_model_find_link(c.model, "azAZ09_-.x______") >= 0);
   assert_string_equal(ambulo_model_name(c.model), "a_b");
   assert_true(ambulo_model_find_link(c.model, "base") >= 0);
   assert_true(ambulo_model_find_link(c.model, "base_2") >= 0);
