@@ -161,11 +161,111 @@ static void inertia_is_repaired(void **state) {
   import_shut(&c);
 }
 
+/* limits: positive ones count; a range is of hinges and sliders that have <limit> */
+static void limits(void **state) {
+  import_case c = import_good(
+      state, ROBOT(LINK("a") LINK("b") LINK("c") LINK("d") LINK("e")
+                       JOINT("1", "revolute", "a", "b", "<limit effort='0' velocity='-2'/>") JOINT(
+                           "2", "prismatic", "b", "c", "<limit upper='3'/><dynamics friction='1'/>")
+                           JOINT("3", "revolute", "c", "d", "<dynamics damping='1'/>")
+                               JOINT("4", "continuous", "d", "e",
+                                     "<limit lower='-1' upper='1' effort='5'/><dynamics/>")));
+  const ambulo_coordinate *q[5];
+  for (int i = 1; i <= 4; i++)
+    q[i] = ambulo_model_coordinate(
+        c.model, ambulo_model_find_coordinate(c.model, (char[]){(char)('0' + i), '\0'}));
+  assert_true(isinf(q[1]->torque[0]) && isinf(q[1]->torque[1]) && isinf(q[1]->speed[1]));
+  assert_close(q[1]->range[1], 0, 0);
+  assert_close(q[2]->range[0], 0, 0);
+  assert_close(q[2]->range[1], 3, 0);
+  assert_true(isinf(q[3]->range[0]));
+  assert_true(isinf(q[4]->range[0]) && isinf(q[4]->range[1]));
+  assert_close(q[4]->torque[0], -5, 0);
+  assert_told(&c, "damping and friction of 2 joints are left out");
+  assert_told(&c, "1 joints have no <limit>: their coordinates have no range");
+  import_shut(&c);
+}
+
+/* a joint that follows one that is not there, one without limits, one with them; a slider */
+static void followers(void **state) {
+  static const struct {
+    const char *type, *mimic, *limit, *said;
+  } cases[] = {
+      {"revolute", "joint='none' offset='0.5'", "", "held at 0.5; it would move by up to 0 "},
+      {"revolute", "joint='lead'", "", "held at 0; it would move by up to 0 "},
+      {"prismatic", "joint='lead' multiplier='-2' offset='1'", "<limit lower='-3' upper='2'/>",
+       "follow follows lead (times -2 plus 1): it is held at 1; it would move by up to 6 "},
+      {"revolute", "joint='lead' multiplier='2'", "<limit lower='-1' upper='2'/>",
+       "it would move by up to 4 "}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char text[1600];
+    (void)snprintf(text, sizeof text,
+                   ROBOT(LINK("a") LINK("b") LINK("c") JOINT("lead", "revolute", "a", "b", "%s")
+                             JOINT("follow", "%s", "b", "c", "<mimic %s/>")),
+                   cases[i].limit, cases[i].type, cases[i].mimic);
+    import_case c = import_good(state, text);
+    assert_told(&c, cases[i].said);
+    assert_true(ambulo_model_find_coordinate(c.model, "follow") < 0);
+    import_shut(&c);
+  }
+}
+
+/* a sole of what collides; geometry without its sizes is none */
+static void soles(void **state) {
+  static const struct {
+    const char *geometry;
+    double length;
+  } cases[] = {{"<box size='0.2 0.1 0.05'/>", 0.2},
+               {"<box/>", 0},
+               {"<sphere radius='0.05'/>", 0.1},
+               {"<sphere/>", 0},
+               {"<cylinder radius='0.05' length='0.02'/>", 0.1},
+               {"<cylinder radius='0.05'/>", 0},
+               {"<capsule radius='0.05' length='0.02'/>", 0.1},
+               {"<mesh/>", 0},
+               {"<mesh filename='none.stl' scale='1 1 1'/>", 0},
+               {"", 0}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char text[1600];
+    (void)snprintf(
+        text, sizeof text,
+        ROBOT(LINK("base") "<link name='foot_r'><inertial><mass value='1'/><inertia "
+                           "ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+                           "<collision/><collision><origin xyz='0 0 -0.1'/><geometry>%s"
+                           "</geometry></collision></link>" JOINT("hip", "continuous", "base",
+                                                                  "foot_r", "<axis xyz='0 1 0'/>")),
+        cases[i].geometry);
+    import_case c = import_good(state, text);
+    assert_int_equal(ambulo_model_foot_count(c.model), cases[i].length > 0 && i != 2 && i != 6);
+    import_shut(&c);
+  }
+}
+
+static void ends_of_joints(void **state) {
+  import_bad(state, ROBOT(LINK("a") "<joint name='j' type='fixed'><parent link='a'/></joint>"),
+             AMBULO_E_SCHEMA, "joint 'j' has no <child link=...>");
+  import_bad(state, ROBOT(LINK("a") LINK("b") JOINT("j", "fixed", "a", "c", "")), AMBULO_E_MODEL,
+             "unknown child link of joint 'j' (got 'c'); expected a link of this robot");
+  import_bad(state,
+             ROBOT(LINK("a") LINK("b") "<joint name='j'><parent link='a'/><child link='b'/>"
+                                       "</joint>"),
+             AMBULO_E_SCHEMA, "unknown type of joint (got '')");
+  import_bad(state,
+             ROBOT(LINK("a") LINK("b") JOINT("j", "planar", "a", "b", "<axis xyz='0 0 0'/>")),
+             AMBULO_E_MODEL, "the axis of joint 'j' has no direction");
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(as_pinocchio),          cmocka_unit_test(roots),
-      cmocka_unit_test(planar_and_floating),   cmocka_unit_test(trees_that_are_none),
-      cmocka_unit_test(joints_that_are_wrong), cmocka_unit_test(bodies_that_are_wrong),
-      cmocka_unit_test(inertia_is_repaired)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(as_pinocchio),
+                                     cmocka_unit_test(roots),
+                                     cmocka_unit_test(planar_and_floating),
+                                     cmocka_unit_test(trees_that_are_none),
+                                     cmocka_unit_test(joints_that_are_wrong),
+                                     cmocka_unit_test(bodies_that_are_wrong),
+                                     cmocka_unit_test(inertia_is_repaired),
+                                     cmocka_unit_test(limits),
+                                     cmocka_unit_test(followers),
+                                     cmocka_unit_test(soles),
+                                     cmocka_unit_test(ends_of_joints)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
