@@ -62,6 +62,76 @@ static void bodies_that_are_wrong(void **state) {
              AMBULO_E_SCHEMA, "the text of <mass> is not a number (got 'one')");
 }
 
+static void joints_that_are_wrong(void **state) {
+  import_bad(state,
+             V4("<Body name='a'><mass>1</mass><inertia>1 1 1 0 0 0</inertia><Joint>\n"
+                "<PinJoint name='p'><parent_body>ground</parent_body><reverse>true</reverse>"
+                "<CoordinateSet><objects><Coordinate name='q'/></objects></CoordinateSet>"
+                "</PinJoint></Joint></Body>\n",
+                "", ""),
+             AMBULO_E_MODEL,
+             "t.xml:5:1: error[E_MODEL]: joint 'p' is reversed; expected the parent to come first");
+  import_bad(state, V4("<Muscle/>\n", "", ""), AMBULO_E_SCHEMA,
+             "t.xml:4:1: error[E_SCHEMA]: unknown object in BodySet (got <Muscle>)");
+  import_bad(state,
+             V4(BODY("a"), PIN("1", "ground", "loop"),
+                "<ComponentSet><objects><PhysicalOffsetFrame name='loop'><socket_parent>loop"
+                "</socket_parent></PhysicalOffsetFrame></objects></ComponentSet>"),
+             AMBULO_E_MODEL, "unknown frame (got 'loop'); expected a body, or a frame");
+  import_bad(state, "<OpenSimDocument/>", AMBULO_E_SCHEMA,
+             "this OpenSim file holds no model (got <nothing>)");
+  import_bad(state,
+             V4("<Body name='a'><mass>1</mass><inertia_xx>1</inertia_xx><inertia_yy>1"
+                "</inertia_yy></Body>\n",
+                PIN("1", "ground", "a"), ""),
+             AMBULO_E_SCHEMA, "expected <inertia> with six numbers, or <inertia_zz>");
+  import_bad(state,
+             V4(BODY("a"),
+                "<CustomJoint name='c'><socket_parent_frame>ground</socket_parent_frame>"
+                "<socket_child_frame>a</socket_child_frame><SpatialTransform>\n"
+                "<TransformAxis/></SpatialTransform></CustomJoint>\n",
+                ""),
+             AMBULO_E_SCHEMA, "unknown transform axis (got '')");
+}
+
+/* moments one by one; products may be left out; a massless body needs none */
+static void moments_one_by_one(void **state) {
+  import_case c = import_good(
+      state, V4("<Body name='a'><mass>1</mass><inertia_xx>1</inertia_xx><inertia_yy>2</inertia_yy>"
+                "<inertia_zz>2.5</inertia_zz><inertia_xy>0.25</inertia_xy></Body>\n"
+                "<Body name='b'><mass>0</mass></Body>\n",
+                PIN("1", "ground", "a") PIN("2", "a", "b"), ""));
+  const ambulo_link *a = ambulo_model_link(c.model, ambulo_model_find_link(c.model, "a"));
+  static const double want[] = {1, 2, 2.5, 0.25, 0, 0};
+  for (int i = 0; i < 6; i++) assert_close(a->inertia[i], want[i], 1e-12);
+  import_shut(&c);
+}
+
+/* an axis without a function, one that nothing drives, one that is held off, one that drives two */
+static void axes_of_custom_joints(void **state) {
+#define AXIS(name, inner) "<TransformAxis name='" name "'>" inner "</TransformAxis>"
+#define LINE(slope, offset)                                                                        \
+  "<LinearFunction><coefficients>" slope " " offset "</coefficients></LinearFunction>"
+  import_case c = import_good(
+      state,
+      V4(BODY("a"),
+         "<CustomJoint name='c'><socket_parent_frame>ground</socket_parent_frame>"
+         "<socket_child_frame>a</socket_child_frame><coordinates><Coordinate name='q'/>"
+         "<Coordinate name='idle'/></coordinates><SpatialTransform>\n" AXIS(
+             "rotation1", "<coordinates>q</coordinates>" LINE("2", "0.5"))
+             AXIS("rotation2", "<Constant><value>0.25</value></Constant>")
+                 AXIS("rotation3", "<coordinates>idle</coordinates><Constant><value>0</value>"
+                                   "</Constant>")
+                     AXIS("translation1", "<SimmSpline><x>0 1 2</x><y>0.125 1 4</y></SimmSpline>")
+                         AXIS("translation2", "<coordinates>q</coordinates>" LINE("1", "0"))
+                             AXIS("translation3", "") "</SpatialTransform></CustomJoint>\n",
+         ""));
+  assert_int_equal(ambulo_model_coordinate_count(c.model), 1);
+  assert_told(&c, "idle drives no axis linearly: it is left out, and its joint is held at 0");
+  assert_non_null(strstr(c.text, "0.125"));
+  import_shut(&c);
+}
+
 #define CUSTOM(axis)                                                                               \
   V4(BODY("a"),                                                                                    \
      "<CustomJoint name='c'><socket_parent_frame>ground</socket_parent_frame>"                     \
@@ -136,11 +206,11 @@ static void contact_spheres(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(trees_that_are_none),
-                                     cmocka_unit_test(bodies_that_are_wrong),
-                                     cmocka_unit_test(custom_joints_that_are_wrong),
-                                     cmocka_unit_test(frames_on_frames),
-                                     cmocka_unit_test(several_roots),
-                                     cmocka_unit_test(contact_spheres)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(trees_that_are_none),   cmocka_unit_test(bodies_that_are_wrong),
+      cmocka_unit_test(joints_that_are_wrong), cmocka_unit_test(moments_one_by_one),
+      cmocka_unit_test(axes_of_custom_joints), cmocka_unit_test(custom_joints_that_are_wrong),
+      cmocka_unit_test(frames_on_frames),      cmocka_unit_test(several_roots),
+      cmocka_unit_test(contact_spheres)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
