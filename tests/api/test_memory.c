@@ -1,9 +1,9 @@
 /* Every call that reads or writes a file, and takes a list of messages, with memory that gives out
- * at the k-th request, once or from there on: E_MEMORY and an error in the list, never another
- * status and never silence, and nothing is leaked. What a call returns for which only a hint got
- * lost is as good as ever. */
+ * at each place that asks for it, once or from there on: E_MEMORY and an error in the list, never
+ * another status and never silence, and nothing is leaked. What a call returns for which only a
+ * hint got lost is as good as ever. */
 #include "ambulo/tools/tools.h"
-#include "support/fail_alloc.h"
+#include "support/fail_sites.h"
 #include "support/gait_folder.h"
 #include "support/walker_result.h"
 
@@ -68,14 +68,23 @@ static void try_at(const char *name, call function, long k, int only_once, int *
   *failed = memory.failed;
 }
 
+static ambulo_status run(const ambulo_allocator *allocator, void *function) {
+  return (*(call *)function)(allocator, NULL);
+}
+
 static void try_all(const char *name, call function) {
-  long k = 0;
-  for (int only_once = 0; only_once < 2; only_once++) {
-    int failed = 1;
-    for (k = 0; failed; k += 1 + k / 150) try_at(name, function, k, only_once, &failed);
+  static fail_sites sites;
+  sites = (fail_sites){.count = 0};
+  int count = fail_sites_find(&sites, run, &function), failed = 1;
+  for (int i = 0; i < count; i++) {
+    for (int only_once = 0; only_once < 2; only_once++)
+      try_at(name, function, sites.request[i], only_once, &failed);
+    assert_true(failed);
   }
-  print_message("%s: %ld\n", name, k);
-  assert_true(k > 1);
+  /* and some between: the same place in another state */
+  for (long k = 0; failed; k += 1 + k / 20) try_at(name, function, k, 0, &failed);
+  print_message("%s: %d places\n", name, count);
+  assert_true(count > 1);
 }
 
 /* -------------------------------------------------------------------- calls */

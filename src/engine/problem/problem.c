@@ -251,11 +251,7 @@ static ambulo_status copy_obstacles(const ambulo_problem_definition *d,
   for (size_t i = 0; i < count; i++) size += strlen(d->obstacles[i].name) + 1;
   *names = ambulo__alloc(allocator, size, 1);
   *obstacles = ambulo__alloc(allocator, count, sizeof **obstacles);
-  if (!*names || !*obstacles) {
-    ambulo__free(allocator, *names);
-    ambulo__free(allocator, *obstacles);
-    return AMBULO_E_MEMORY;
-  }
+  if (!*names || !*obstacles) return AMBULO_E_MEMORY;
   char *end = *names;
   for (size_t i = 0; i < count; i++) {
     size_t length = strlen(d->obstacles[i].name) + 1;
