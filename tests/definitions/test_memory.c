@@ -26,7 +26,7 @@ static void problems(void **state) {
   for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
     char path[200];
     (void)snprintf(path, sizeof path, "models/%s.yaml", files[i]);
-    print_message("%s: %d places\n", files[i], fail_at_every_site(&sites, load, path));
+    print_message("%s: %d places\n", files[i], fail_at_every_site(&sites, load, path, 2));
   }
 }
 

@@ -63,10 +63,11 @@ static inline int fail_sites_find(fail_sites *sites, fail_sites_call call, void 
 
 /* E_MEMORY, and nothing leaked, where a request and all that follow are refused; where one alone
  * is, what needs no more than a hint may succeed. Returns how many new places the call has. */
-static inline int fail_at_every_site(fail_sites *sites, fail_sites_call call, void *data) {
+static inline int fail_at_every_site(fail_sites *sites, fail_sites_call call, void *data,
+                                     int ways) {
   int count = fail_sites_find(sites, call, data);
   for (int i = 0; i < count; i++) {
-    for (int alone = 0; alone < 2; alone++) {
+    for (int alone = 0; alone < ways; alone++) {
       fail_alloc memory = fail_alloc_at(sites->request[i]);
       memory.only_once = alone;
       ambulo_allocator hook = fail_alloc_hook(&memory);

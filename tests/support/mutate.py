@@ -51,6 +51,11 @@ def negated(match):
     return None if match[1].count('(') != match[1].count(')') else f'if (!({match[1]}))'
 
 
+def swapped(match):
+    before = match.string[match.string.rfind('\n', 0, match.start()) + 1:match.start()]
+    return f'{match[2]}, {match[1]}' if before.count('(') > before.count(')') else None
+
+
 FAULTS = [
     ('relation', re.compile(r' (<|<=|>|>=|==|!=) '), other_operator),
     ('logic', re.compile(r' (&&|\|\|) '), other_operator),
@@ -59,7 +64,7 @@ FAULTS = [
     ('condition', re.compile(r'\bif \((.+?)\)(?= [^&|)]*(?:\{|;)?$)', re.M), negated),
     ('statement', re.compile(r'^( +)((?:[a-z_][\w.>\[\]-]* (?:[+*/-]|\|)?= |[a-z_]\w*\(|\(void\)).*);$', re.M),
      without_statement),
-    ('arguments', re.compile(r'(?<=[(\s])([a-z]\w*), ([a-z]\w*)(?=[,)])'), lambda m: f'{m[2]}, {m[1]}'),
+    ('arguments', re.compile(r'(?<=[(\s])([a-z]\w*), ([a-z]\w*)(?=[,)])'), swapped),
 ]
 
 
