@@ -47,6 +47,54 @@ static void values_are_replaced_and_added(void **state) {
   yaml_shut(&c);
 }
 
+/* a number for all coordinates becomes a mapping that keeps it for those without their own */
+static void one_scale_becomes_many(void **state) {
+  (void)state;
+  yaml_case c = yaml_open("term: {scale: 2.5, weight: 3}\nlist: [{scale: word}]\n");
+  assert_int_equal(ambulo__yaml_set(c.document, "term.scale.knee", "4"), AMBULO_OK);
+  const ambulo__yaml_node *scale = at(at(c.root, "term"), "scale");
+  assert_int_equal(ambulo__yaml_pairs(scale), 2);
+  assert_close(ambulo__yaml_number(at(scale, "default"), 0.0), 2.5, 0.0);
+  assert_close(ambulo__yaml_number(at(scale, "knee"), 0.0), 4.0, 0.0);
+  /* of other keys, and of what is no number, nothing is made */
+  assert_int_not_equal(ambulo__yaml_set(c.document, "term.weight.knee", "4"), AMBULO_OK);
+  assert_int_not_equal(ambulo__yaml_set(c.document, "list[0].scale.knee", "4"), AMBULO_OK);
+  assert_int_not_equal(ambulo__yaml_set(c.document, "list[0].scale.knee", "null"), AMBULO_OK);
+  assert_string_equal(ambulo__yaml_text(at(ambulo__yaml_item(at(c.root, "list"), 0), "scale")),
+                      "word");
+  expect_messages(&c, 3);
+  yaml_shut(&c);
+}
+
+/* what is not there is made below a key that is; rows of numbers are lengthened, to eight */
+static void what_is_missing_is_made(void **state) {
+  (void)state;
+  yaml_case c = yaml_open("a: {row: [1], words: [[1]], one: 2}\n");
+  assert_int_equal(ambulo__yaml_set(c.document, "a.row[3]", "7"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "a.new.deep.value", "5"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "a.fresh[1]", "6"), AMBULO_OK);
+  const ambulo__yaml_node *a = at(c.root, "a"), *row = at(a, "row");
+  assert_int_equal(ambulo__yaml_items(row), 4);
+  double values[4] = {10, 20, 30, 40}; /* '~' keeps */
+  assert_true(ambulo__yaml_numbers_over(row, 4, values));
+  assert_true(values[0] == 1 && values[1] == 20 && values[2] == 30 && values[3] == 7);
+  assert_close(ambulo__yaml_number(at(at(at(a, "new"), "deep"), "value"), 0.0), 5.0, 0.0);
+  assert_int_equal(ambulo__yaml_items(at(a, "fresh")), 2);
+  expect_messages(&c, 0);
+  static const char *const wrong[] = {"a.row[8]", "a.words[1]", "a.one[0]", "none.deep",
+                                      "b[0]",     "a.row.key",  "a..b",     "a.new[zero]"};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    ambulo_status status = ambulo__yaml_set(c.document, wrong[i], "1");
+    if (!status) print_error("%s was set\n", wrong[i]);
+    assert_int_equal(status, AMBULO_E_SCHEMA);
+  }
+  /* what takes away makes nothing */
+  assert_int_equal(ambulo__yaml_set(c.document, "a.other.deep", "~"), AMBULO_E_SCHEMA);
+  assert_null(at(a, "other"));
+  assert_int_equal(ambulo__yaml_items(row), 4);
+  yaml_shut(&c);
+}
+
 /* null and ~ leave a key or an item out; what follows moves up and keeps its place in messages */
 /* words for all that a section holds */
 static void words_give_way_to_what_they_stand_for(void **state) {
@@ -200,12 +248,40 @@ static void out_of_memory_anywhere(void **state) {
   assert_true(k > 10);
 }
 
+/* each path in turn, with what it makes on its way */
+static void out_of_memory_on_the_way(void **state) {
+  (void)state;
+  static const char text[] = "a: {scale: 2, row: [1], on: automatic}\n";
+  static const char *const paths[] = {"a.scale.knee", "a.row[5]", "a.new.deep.key", "a.on.margin",
+                                      "a.none[2].key"};
+  for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+    for (long k = 0;; k++) {
+      fail_alloc memory = fail_alloc_at(-1);
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      ambulo__yaml *document = NULL;
+      assert_int_equal(
+          ambulo__yaml_load_text(text, sizeof text - 1, "t.yaml", &hook, NULL, &document),
+          AMBULO_OK);
+      memory.fail_at = memory.requests + k;
+      ambulo_status status = ambulo__yaml_set(document, paths[i], "[1, 2]");
+      if (memory.failed) assert_int_equal(status, AMBULO_E_MEMORY);
+      if (!memory.failed) assert_int_equal(status, i == 4 ? AMBULO_E_SCHEMA : AMBULO_OK);
+      ambulo__yaml_free(document);
+      assert_int_equal(memory.live, 0);
+      if (!memory.failed) break;
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_replaced_and_added),
                                      cmocka_unit_test(words_give_way_to_what_they_stand_for),
+                                     cmocka_unit_test(one_scale_becomes_many),
+                                     cmocka_unit_test(what_is_missing_is_made),
                                      cmocka_unit_test(null_leaves_out),
                                      cmocka_unit_test(faults_name_the_setting),
                                      cmocka_unit_test(a_wrong_value_is_blamed_on_the_setting),
-                                     cmocka_unit_test(out_of_memory_anywhere)};
+                                     cmocka_unit_test(out_of_memory_anywhere),
+                                     cmocka_unit_test(out_of_memory_on_the_way)};
   return cmocka_run_group_tests_name("format/yaml_set", tests, NULL, NULL);
 }
