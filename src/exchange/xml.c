@@ -57,6 +57,13 @@ void ambulo__xml_error(ambulo__xml *xml, const ambulo__xml_node *node, ambulo_st
   va_start(arguments, format);
   (void)vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
+  if (xml->arena
+          ->failed) { /* a name was not found without memory: nothing is wrong with the file */
+    if (!xml->status)
+      xml->status =
+          ambulo__error(xml->diagnostics, AMBULO_E_MEMORY, ambulo__nowhere, NULL, "out of memory");
+    return;
+  }
   (void)ambulo__error(xml->diagnostics, status, ambulo__xml_place(node), hint, "%s", message);
   if (!xml->status) xml->status = status;
 }

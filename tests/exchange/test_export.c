@@ -4,7 +4,7 @@
 #include "model/model.h"
 #include "ambulo/tools/export.h"
 #include "ambulo/tools/load.h"
-#include "support/fail_alloc.h"
+#include "support/fail_sites.h"
 #include "support/import_case.h"
 #include "support/messages.h"
 #include "support/random_model.h"
@@ -347,34 +347,33 @@ static void nothing_is_written_over(void **state) {
   ambulo_model_free(model);
 }
 
+typedef struct export {
+  const ambulo_model *model;
+  const char *motion, *output;
+  ambulo_export_options options;
+}
+export;
+
+static ambulo_status export_once(const ambulo_allocator *allocator, void *data) {
+  const export *e = data;
+  return ambulo_export(e->model, e->motion, e->output, &e->options, allocator, NULL);
+}
+
 static void memory_may_run_out_anywhere(void **state) {
   static const ambulo_export_format formats[] = {AMBULO_EXPORT_OPENSIM, AMBULO_EXPORT_URDF,
                                                  AMBULO_EXPORT_NPZ, AMBULO_EXPORT_OPENSIM};
+  static fail_sites sites;
   ambulo_model *model = walker();
   const char *motion = scratch_path(state, "m.csv"), *file = scratch_path(state, "file"),
              *folder = scratch_path(state, "folder");
   scratch_write(motion, motion_text);
   for (int f = 0; f < 4; f++) {
-    ambulo_export_options o = options_of(formats[f]);
-    for (long k = 0; k < 100000; k += k < 100 ? 1 : 13) {
-      fail_alloc memory = fail_alloc_at(k);
-      ambulo_allocator allocator = fail_alloc_hook(&memory);
-      ambulo_status status =
-          ambulo_export(model, f > 1 ? motion : NULL, f == 3 ? folder : file, &o, &allocator, NULL);
-      if (!memory.failed) {
-        assert_int_equal(status, AMBULO_OK);
-        assert_int_equal(memory.live, 0);
-        break;
-      }
-      assert_int_equal(status, AMBULO_E_MEMORY);
-      assert_int_equal(memory.live, 0);
-    }
+    export e = {model, f > 1 ? motion : NULL, f == 3 ? folder : file, options_of(formats[f])};
+    assert_true(fail_at_every_site(&sites, export_once, &e, 2) > 0);
   }
   assert_int_equal(entries_in(*state), 3); /* no temporary is left */
   ambulo_model_free(model);
 }
-
-/* Motions for OpenSim: coordinates, what acts on feet and hands, and which bodies these are. */
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
