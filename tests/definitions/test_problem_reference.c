@@ -92,11 +92,14 @@ static void doubtful_references_are_warned_of(void **state) {
       {"time,knee_angle_r\n0,0.1\n1,0.2\n", NULL},
       {"# inDegrees=yes\ntime,knee_angle_r\n0,5\n0.5,65\n1,5\n", NULL},
       {"t\nnColumns=3\nendheader\ntime\tknee_angle_r\n0\t0.1\n1\t0.2\n",
-       "the reference has 2 columns; its header says 3 (nColumns)"}};
-  for (int i = 0; i < 6; i++) {
+       "the reference has 2 columns; its header says 3 (nColumns)"},
+      {"t\nnColumns=0\nendheader\ntime\tknee_angle_r\n0\t0.1\n1\t0.2\n",
+       "the reference has 2 columns; its header says 0 (nColumns)"},
+      {"t\nnColumns=2\nendheader\ntime\tknee_angle_r\n0\t0.1\n1\t0.2\n", NULL}};
+  for (int i = 0; i < 8; i++) {
     ambulo_problem *p = NULL;
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-    assert_int_equal(load(*state, i == 5 ? "odd.sto" : "odd.csv", cases[i].table, list, &p),
+    assert_int_equal(load(*state, i >= 5 ? "odd.sto" : "odd.csv", cases[i].table, list, &p),
                      AMBULO_OK);
     assert_int_equal(ambulo_diagnostics_count(list), cases[i].message != NULL);
     if (cases[i].message) assert_message(list, 0, cases[i].message);

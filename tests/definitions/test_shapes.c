@@ -129,8 +129,30 @@ static void pairs_that_overlap(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* what may be free is listed, and what is not there is not */
+static void what_may_be_free(void **state) {
+  (void)state;
+  static const struct {
+    const char *objective;
+    int terms;
+  } cases[] = {{NONE, 0}, {"objective: [{term: torque_squared}]\n", 1}};
+  for (int i = 0; i < 2; i++) {
+    char text[600], said[2048] = "";
+    ambulo_problem *problem = NULL;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    (void)snprintf(text, sizeof text, HEAD("walker_2d") "%s" FLAT "free: {xyzzyqwx: [1, 2]}\n",
+                   cases[i].objective);
+    assert_int_not_equal(load_text(text, list, &problem), AMBULO_OK);
+    ambulo_diagnostics_format(list, 0, said, sizeof said);
+    assert_non_null(strstr(said, "those are "));
+    assert_int_equal(strstr(said, "numbers of 'objective'") != NULL, cases[i].terms);
+    ambulo_diagnostics_free(list);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_has_another_shape),
-                                     cmocka_unit_test(pairs_that_overlap)};
+                                     cmocka_unit_test(pairs_that_overlap),
+                                     cmocka_unit_test(what_may_be_free)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
