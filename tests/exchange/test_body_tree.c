@@ -107,6 +107,19 @@ static void names(void **state) {
   import_shut(&c);
 }
 
+/* what another program's names hold that a text of YAML cannot */
+static void names_in_notes(void **state) {
+  import_case c = import_good(
+      state,
+      "<robot name='r'><link name='a'><inertial><mass value='1'/>" INERTIA(
+          "1", "1", "1") "</inertial></link><link name='b'/><link name='c'/><joint name='j' "
+                         "type='continuous'><parent link='a'/><child link='b'/></joint>"
+                         "<joint name='k' type='revolute'><parent link='b'/><child link='c'/>"
+                         "<mimic joint='say &quot;a\\b&quot; \xc3\xa9'/></joint></robot>");
+  assert_non_null(strstr(c.text, "k follows say 'a?b' ?? (times 1 plus 0)"));
+  import_shut(&c);
+}
+
 /* a pose is of the coordinate of that name, not of one that begins alike; what is no number is
  * refused before */
 static void poses(void **state) {
@@ -166,6 +179,7 @@ int main(void) {
       cmocka_unit_test(too_many_links),
       cmocka_unit_test(names),
       cmocka_unit_test(poses),
+      cmocka_unit_test(names_in_notes),
       cmocka_unit_test(gravity),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

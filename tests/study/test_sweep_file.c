@@ -244,6 +244,53 @@ static void faults_are_named(void **state) {
   refused(state, "", "no case left");
 }
 
+#define AXIS(more) "axes:\n  - {key: time.duration, " more "}\n"
+
+static void shapes_are_named(void **state) {
+  static const struct {
+    const char *text, *message;
+  } wrong[] = {
+      {"axes:\n  - {key: \"a=b\", values: [1]}\n", "no key that can be set (got 'a=b')"},
+      {"axes:\n  - {key: \"\", values: [1]}\n", "s.yaml:6:"},
+      {"axes:\n  - [time.duration]\n", "s.yaml:6:"},
+      {"axes: 3\n", "s.yaml:5:"},
+      {AXIS("values: []"), "'values' of 'time.duration' is empty; expected a list"},
+      {AXIS("values: 3"), "'values' of 'time.duration' is not a list; expected a list"},
+      {AXIS("values: [\"\"]"), "no value of 'time.duration'; expected one"},
+      {AXIS("linspace: [1, 2]"), "s.yaml:6:"},
+      {AXIS("linspace: [1, 2, 0]"), "[1, 2, 0] has no values; expected [first, last, count]"},
+      {AXIS("linspace: [1, 2, 2.5]"), "[1, 2, 2.5] has no values"},
+      {AXIS("linspace: [1, 2, 1e9]"), "has no values"},
+      {AXIS("range: [1, 2, 0]"), "has no values; expected [first, last, step]"},
+      {AXIS("range: [1, x, 1]"), "s.yaml:6:"},
+      {"random: {samples: 5, axes: [{key: time.duration, range: [1]}]}\n", "s.yaml:5:"},
+      {"random: {samples: 5, axes: [{key: \"\", range: [1, 2]}]}\n", "s.yaml:5:"},
+      {"random: {samples: 0, axes: [{key: time.duration, range: [1, 2]}]}\n", "s.yaml:5:"},
+      {"random: {samples: 5, axes: []}\n", "s.yaml:5:"},
+      {AXIS("values: [1, 2]") "filters: [\"\"]\n", "no filter; expected one"},
+      {AXIS("values: [1, 2]") "outputs: [\"\"]\n", "no output; expected one"},
+      {AXIS("values: [1, 2]") "outputs: [{label: a}]\n", "missing required key 'output'"},
+  };
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+    refused(state, wrong[i].text, wrong[i].message);
+}
+
+/* one value where first and last are one */
+static void a_single_value(void **state) {
+  ambulo_sweep *s = loaded(state, AXIS("linspace: [1.5, 3, 1]"));
+  assert_int_equal(ambulo_sweep_case_count(s), 1);
+  assert_string_equal(ambulo_sweep_value(s, 0, 0), "1.5");
+  ambulo_sweep_free(s);
+}
+
+static void too_many(void **state) {
+  char text[1900] = "axes:\n";
+  for (int i = 0; i < 65; i++)
+    (void)snprintf(text + strlen(text), sizeof text - strlen(text), "  - {key: k%d, values: [1]}\n",
+                   i);
+  refused(state, text, "more than 64 axes; expected at most 64");
+}
+
 /* what the file says, else what is known */
 static void columns_have_titles_and_units(void **state) {
   static const char *const known[][2] = {{"objective", ""},
@@ -315,6 +362,9 @@ int main(void) {
       TEST(names_are_used_once),
       TEST(a_bad_cell_is_told_with_line_and_column),
       TEST(faults_are_named),
+      TEST(shapes_are_named),
+      TEST(a_single_value),
+      TEST(too_many),
       TEST(columns_have_titles_and_units),
       TEST(at_most_a_million_cases),
   };
