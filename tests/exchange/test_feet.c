@@ -118,7 +118,14 @@ static void options_that_are_wrong(void **state) {
       {"right=foot_r:1,2", "right=foot_r:1,2,3", "--heel: '1,2' is not a position; expected X,Y,Z"},
       {"right=foot_r:1,2,3:1,2,3:1,2,3", "right=foot_r:1,2,3", "is not a position"},
       {"right=foot_r", "right=foot_r:1,2,3", "--heel has no position"},
-      {"right=:1,2,3", "right=foot_r:1,2,3", "names no link; expected FOOT=LINK:X,Y,Z"}};
+      {"right=:1,2,3", "right=foot_r:1,2,3", "names no link; expected FOOT=LINK:X,Y,Z"},
+      {"=foot_r:1,2,3", "=foot_r:1,2,3", "--heel '=foot_r:1,2,3' names no link"},
+      {"right=foot_r:1,2,x", "right=foot_r:1,2,3", "--heel: '1,2,x' is not a position"},
+      {"right=foot_r:1,2e4,3", "right=foot_r:1,2,3", "--heel: '1,2e4,3' is not a position"},
+      {"right=foot_r:1:2,3", "right=foot_r:1,2,3", "--heel: '1:2,3' is not a position"},
+      {"right=foot_r:1,2,3", "right=foot_r:1,,3", "--toe: '1,,3' is not a position"},
+      {"right=foot_r:1,2,3", "right=none:1,2,3", "--toe: unknown link (got 'none')"},
+      {"right=foot_r:1,2,3:4", "right=foot_r:1,2,3", "--heel: '1,2,3:4' is not a position"}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     ambulo_import_options o = ambulo_import_options_default();
     o.heels = &cases[i].heel;

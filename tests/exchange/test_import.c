@@ -22,6 +22,28 @@ static void arguments(void **state) {
   assert_null(text);
 }
 
+/* lists that are not there, of a negative length, and roots that are none */
+static void options_that_are_none(void **state) {
+  (void)state;
+  const char *const word = "a=b";
+  for (int i = 0; i < 10; i++) {
+    ambulo_import_options o = ambulo_import_options_default();
+    int *const counts[] = {&o.pose_count, &o.foot_count, &o.heel_count, &o.toe_count};
+    const char *const **const lists[] = {&o.pose, &o.feet, &o.heels, &o.toes};
+    char *text = NULL;
+    if (i < 4) *counts[i] = 1; /* of no list */
+    if (i >= 4 && i < 8) {
+      *counts[i - 4] = -1;
+      *lists[i - 4] = &word;
+    }
+    if (i == 8) o.root = (ambulo_import_root)(AMBULO_ROOT_FIXED + 1);
+    if (i == 9) o.root = (ambulo_import_root)-1;
+    assert_int_equal(ambulo_import_model(sources[0], NULL, &o, NULL, NULL, &text),
+                     AMBULO_E_ARGUMENT);
+    assert_null(text);
+  }
+}
+
 /* without expat every file is refused in words */
 static void without_expat(void **state) {
   (void)state;
@@ -155,6 +177,7 @@ static void memory_may_run_out_behind_a_chunk(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(arguments),
+                                     cmocka_unit_test(options_that_are_none),
                                      cmocka_unit_test(without_expat),
                                      cmocka_unit_test(files),
                                      cmocka_unit_test(names),

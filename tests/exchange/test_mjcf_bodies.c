@@ -152,6 +152,64 @@ static void what_is_wrong(void **state) {
     import_bad(state, wrong[i].xml, wrong[i].status, wrong[i].said);
 }
 
+/* what a body has by its inertial, by its geoms, or by either; names that are made up */
+static void masses(void **state) {
+  static const struct {
+    const char *compiler, *inertial;
+    double mass;
+  } cases[] = {{"", BODY, 1},
+               {"", "", 3},
+               {"inertiafromgeom='auto'", BODY, 1},
+               {"inertiafromgeom='true'", BODY, 3},
+               {"inertiafromgeom='false'", BODY, 1},
+               {"inertiafromgeom='false' boundmass='7'", "", 7},
+               {"", "<inertial pos='0 0 0' mass='2' fullinertia='1 1 1 0 0 0'/>", 2},
+               {"boundmass='4'", "<inertial pos='0 0 0' mass='0'/>", 4}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char text[900];
+    (void)snprintf(text, sizeof text,
+                   "<mujoco><compiler %s boundinertia='0.01'/><worldbody><frame><body>%s<joint/>"
+                   "<joint name='' type='slide' ref='0.5'/><geom size='1' mass='3'/></body></frame>"
+                   "</worldbody></mujoco>",
+                   cases[i].compiler, cases[i].inertial);
+    import_case c = import_good(state, text);
+    assert_close(ambulo_model_mass(c.model), cases[i].mass, 1e-12);
+    assert_true(ambulo_model_find_link(c.model, "body_1") >= 0);
+    assert_close(named(&c, "body_1_joint2")->default_value, 0.5, 0);
+    import_shut(&c);
+  }
+  import_bad(state, MODEL("<body name='b'>\n<inertial diaginertia='1 1 1'/><joint/></body>"),
+             AMBULO_E_SCHEMA,
+             "t.xml:4:1: error[E_SCHEMA]: <inertial> of body 'b' has no mass; expected mass=...");
+}
+
+/* a keyframe gives what it has: the rest stands as without it; a turn of zeros is none */
+static void keyframes_that_are_short(void **state) {
+  static const struct {
+    const char *key;
+    double start[2]; /* of the first of the ball's, and of the hinge */
+  } cases[] = {{"<key qpos='0.9553364891256 0.2955202066613 0 0 0.25'/>", {0.6, 0.25}},
+               {"<key name='' qpos='0 0 0 0 0.25'/>", {0, 0.25}},
+               {"<key qpos='0.9553364891256 0.2955202066613 0 0'/>", {0.6, 0}},
+               {"<key qpos='1 0'/>", {0, 0}},
+               {"<key/>", {0, 0}},
+               {"", {0, 0}}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char text[900];
+    (void)snprintf(text, sizeof text,
+                   "<mujoco><worldbody><body name='b'>" BODY "<joint name='ball' type='ball'/>"
+                   "<body name='c'>" BODY "<joint name='j'/></body></body></worldbody>"
+                   "<keyframe>%s</keyframe></mujoco>",
+                   cases[i].key);
+    import_case c = import_good(state, text);
+    assert_close(named(&c, "ball_x")->default_value, cases[i].start[0], 1e-8);
+    assert_close(named(&c, "j")->default_value, cases[i].start[1], 1e-8);
+    if (i < 4) assert_told(&c, "the start pose is that of keyframe '0'");
+    import_shut(&c);
+  }
+  import_bad(state, MODEL(""), AMBULO_E_MODEL, "the model cannot move");
+}
+
 static void included_files(void **state) {
   scratch_write(scratch_path(state, "leg.xml"), "<mujocoinclude><body name='leg'>" BODY
                                                 "<joint name='hip'/></body></mujocoinclude>");
@@ -174,6 +232,7 @@ int main(void) {
       cmocka_unit_test(as_mujoco),      cmocka_unit_test(limits),
       cmocka_unit_test(what_is_driven), cmocka_unit_test(solids),
       cmocka_unit_test(settings),       cmocka_unit_test(what_is_as_good_as_none),
+      cmocka_unit_test(masses),         cmocka_unit_test(keyframes_that_are_short),
       cmocka_unit_test(what_is_wrong),  cmocka_unit_test(included_files)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
