@@ -206,6 +206,34 @@ static void least_inertia(void **state) {
   import_shut(&c);
 }
 
+/* meshes stand in meshdir, else in assetdir, else beside the model */
+static void folders_of_meshes(void **state) {
+  static const struct {
+    const char *compiler;
+    int found;
+  } cases[] = {{"meshdir='parts'", 1},
+               {"assetdir='parts'", 1},
+               {"assetdir='none' meshdir='parts'", 1},
+               {"assetdir='parts' meshdir='none'", 0},
+               {"", 0}};
+  assert_int_equal(mkdir(scratch_path(state, "parts"), 0777), 0);
+  scratch_write(scratch_path(state, "parts/foot.obj"),
+                "v -0.05 -0.05 -0.05\nv 0.15 -0.05 -0.05\nv 0.15 0.05 -0.05\n"
+                "v -0.05 0.05 -0.05\nv 0 0 0.3\n");
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char text[900];
+    (void)snprintf(
+        text, sizeof text,
+        "<mujoco><compiler %s/><asset><mesh name='m' file='foot.obj'/></asset><worldbody>"
+        "<body name='b'>" BODY "<freejoint/><body name='foot_r'>" BODY "<joint name='j'/>"
+        "<geom type='mesh' mesh='m'/></body></body></worldbody></mujoco>",
+        cases[i].compiler);
+    import_case c = import_good(state, text);
+    assert_int_equal(ambulo_model_foot_count(c.model), cases[i].found);
+    import_shut(&c);
+  }
+}
+
 static void gravity(void **state) {
   static const struct {
     const char *option;
@@ -257,6 +285,7 @@ int main(void) {
       cmocka_unit_test(actuators_elsewhere),
       cmocka_unit_test(masses_by_setting),
       cmocka_unit_test(least_inertia),
+      cmocka_unit_test(folders_of_meshes),
       cmocka_unit_test(gravity),
       cmocka_unit_test(wrong_settings),
   };
