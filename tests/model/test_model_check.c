@@ -19,6 +19,46 @@ static void arguments(void **state) {
   assert_null(model);
 }
 
+/* each list of a definition: of a negative length, or not there */
+static void lists(void **state) {
+  (void)state;
+  for (int i = 0; i < 6; i++) {
+    for (int missing = 0; missing < 2; missing++) {
+      chain c;
+      chain_make(&c);
+      ambulo_model_definition *d = &c.definition;
+      int *const counts[] = {&d->link_count, &d->coordinate_count, &d->point_count,
+                             &d->foot_count, &d->patch_count,      &d->capsule_count};
+      *counts[i] = missing ? 1 : -1;
+      if (missing) {
+        if (i == 0) d->links = NULL;
+        if (i == 1) d->coordinates = NULL;
+        if (i == 2) d->points = NULL;
+        if (i == 3) d->feet = NULL;
+        if (i == 4) d->patches = NULL;
+        if (i == 5) d->capsules = NULL;
+      }
+      chain_bad(&c, AMBULO_E_ARGUMENT, NULL);
+    }
+  }
+}
+
+/* items of sizes that no header has */
+static void sizes_of_items(void **state) {
+  (void)state;
+  for (int i = 0; i < 6; i++) {
+    for (size_t size = 0; size < 2; size++) {
+      chain c;
+      chain_make(&c);
+      ambulo_model_definition *d = &c.definition;
+      size_t *const sizes_of[] = {&d->link_size, &d->coordinate_size, &d->point_size,
+                                  &d->foot_size, &d->patch_size,      &d->capsule_size};
+      *sizes_of[i] = size ? 1000000 : 0;
+      chain_bad(&c, AMBULO_E_ARGUMENT, NULL);
+    }
+  }
+}
+
 /* a billion links are refused before anything is read or allocated */
 static void sizes(void **state) {
   (void)state;
@@ -52,6 +92,15 @@ static void names(void **state) {
     c.links[1].name = bad[i];
     chain_bad(&c, AMBULO_E_MODEL, "link name is not allowed");
   }
+  for (const char *letter = "/:@[`{"; *letter; letter++) { /* beside those that are allowed */
+    char one[] = {'a', *letter, '\0'};
+    chain_make(&c);
+    c.links[1].name = one;
+    chain_bad(&c, AMBULO_E_MODEL, "link name is not allowed");
+  }
+  chain_make(&c);
+  c.links[1].name = "azAZ09_-.";
+  ambulo_model_free(chain_good(&c));
   chain_make(&c);
   c.coordinates[0].name = NULL;
   chain_bad(&c, AMBULO_E_MODEL, "coordinate name is not allowed");
@@ -166,9 +215,10 @@ static void absurd_numbers(void **state) {
 
 static int test_model_check_tests(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(arguments),     cmocka_unit_test(sizes),
-      cmocka_unit_test(names),         cmocka_unit_test(duplicates),
-      cmocka_unit_test(world),         cmocka_unit_test(all_faults_at_once),
+      cmocka_unit_test(arguments),      cmocka_unit_test(lists),
+      cmocka_unit_test(sizes_of_items), cmocka_unit_test(sizes),
+      cmocka_unit_test(names),          cmocka_unit_test(duplicates),
+      cmocka_unit_test(world),          cmocka_unit_test(all_faults_at_once),
       cmocka_unit_test(absurd_numbers)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
