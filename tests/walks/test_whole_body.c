@@ -19,23 +19,52 @@ typedef struct walk {
   ambulo__stride stride;
 } walk;
 
-static void open_walk(walk *w, const char *file, const char *const *settings, int count) {
+/* solved once, for all tests that ask for the same file and settings */
+enum { KEPT = 12 };
+static struct {
+  char asked[2 * TEXT];
+  walk walk;
+} kept[KEPT];
+static int kept_count;
+
+static walk solved_walk(const char *file, const char *const *settings, int count) {
   char path[TEXT];
-  *w = (walk){.problem = NULL};
+  walk w = {.problem = NULL};
   (void)snprintf(path, sizeof path, "%s/models/%s", AMBULO_SOURCE_DIR, file);
-  assert_int_equal(ambulo_problem_load(path, settings, count, NULL, NULL, &w->problem), AMBULO_OK);
-  assert_int_equal(ambulo_solve(w->problem, NULL, NULL, NULL, NULL, &w->result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(w->result), AMBULO_OPTIMAL);
-  assert_true(ambulo_result_audit(w->result)->violation.worst <= 1e-6);
+  assert_int_equal(ambulo_problem_load(path, settings, count, NULL, NULL, &w.problem), AMBULO_OK);
+  assert_int_equal(ambulo_solve(w.problem, NULL, NULL, NULL, NULL, &w.result), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(w.result), AMBULO_OPTIMAL);
+  assert_true(ambulo_result_audit(w.result)->violation.worst <= 1e-6);
   assert_int_equal(
-      ambulo__stride_create(w->problem, ambulo_result_x(w->result), SAMPLES, NULL, &w->stride),
+      ambulo__stride_create(w.problem, ambulo_result_x(w.result), SAMPLES, NULL, &w.stride),
       AMBULO_OK);
+  return w;
 }
 
-static void close_walk(walk *w) {
-  ambulo__stride_free(&w->stride);
-  ambulo_result_free(w->result);
-  ambulo_problem_free(w->problem);
+static void open_walk(walk *w, const char *file, const char *const *settings, int count) {
+  char asked[2 * TEXT];
+  int length = snprintf(asked, sizeof asked, "%s", file);
+  for (int i = 0; i < count; i++)
+    length += snprintf(asked + length, sizeof asked - (size_t)length, " %s", settings[i]);
+  assert_true(length < (int)sizeof asked);
+  int k = 0;
+  while (k < kept_count && strcmp(kept[k].asked, asked) != 0) k++;
+  if (k == kept_count) {
+    assert_true(k < KEPT);
+    kept[k].walk = solved_walk(file, settings, count);
+    memcpy(kept[kept_count++].asked, asked, sizeof asked);
+  }
+  *w = kept[k].walk;
+}
+
+static int free_walks(void **state) {
+  (void)state;
+  for (int k = 0; k < kept_count; k++) {
+    ambulo__stride_free(&kept[k].walk.stride);
+    ambulo_result_free(kept[k].walk.result);
+    ambulo_problem_free(kept[k].walk.problem);
+  }
+  return 0;
 }
 
 static double angle(const walk *w, const char *name, int k) {
@@ -90,7 +119,6 @@ static void arms_swing_against_the_legs(void **state) {
     double swing = range(&w, "arm_flex_l");
     if (!(swing >= 10.0 && swing <= 40.0)) fail_msg("%s: arms swing by %.1f", files[f], swing);
     for (int k = 0; k < SAMPLES; k++) assert_true(angle(&w, "elbow_flex_l", k) > 5.0);
-    close_walk(&w);
   }
 }
 
@@ -104,7 +132,6 @@ static void arms_swing_further_the_faster(void **state) {
     double swing = range(&w, "arm_flex_l");
     assert_true(swing > 1.2 * last);
     last = swing;
-    close_walk(&w);
   }
 }
 
@@ -127,8 +154,6 @@ static void locked_arms_cost_more(void **state) {
   assert_true(ambulo_result_objective(locked.result) >
               1.015 * ambulo_result_objective(arms.result));
   assert_true(largest_free_moment(&locked) > 1.03 * largest_free_moment(&arms));
-  close_walk(&arms);
-  close_walk(&locked);
 }
 
 /* the lowest tip of a loaded foot at the nodes, m above the ground: inverse dynamics of its own
@@ -215,7 +240,6 @@ static void loaded_toes_stay_above_the_ground(void **state) {
   double error = tip_gradient_error(&w, &rows);
   assert_true(rows > 40);
   if (!(error < 1e-8)) fail_msg("a row's gradient is off by %g", error);
-  close_walk(&w);
 }
 
 /* Runners: each arm against the leg of its side, further the faster, elbows bent by 75 to 115
@@ -236,7 +260,6 @@ static void running_arms_swing_on_bent_elbows(void **state) {
       double elbow = angle(&w, "elbow_flex_l", k);
       assert_true(elbow > 75.0 && elbow < 115.0);
     }
-    close_walk(&w);
   }
 }
 
@@ -253,7 +276,6 @@ static void toes_bend_at_push_off(void **state) {
   }
   if (!(most > 30.0 && most < 65.0 && at > 0.5 && at < 0.75))
     fail_msg("toes bend by %.1f at %.2f of the stride", most, at);
-  close_walk(&w);
 }
 
 int main(void) {
@@ -265,5 +287,5 @@ int main(void) {
       cmocka_unit_test(running_arms_swing_on_bent_elbows),
       cmocka_unit_test(toes_bend_at_push_off),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, NULL, free_walks);
 }
