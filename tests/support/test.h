@@ -27,4 +27,10 @@ static inline void check_close(double got, double want, double tolerance, const 
   _fail(file, line);
 }
 
+/* A test that begins with it takes many seconds: make check-long runs it, make check does not. */
+#define ONLY_IN_CHECK_LONG()                                                                       \
+  do {                                                                                             \
+    if (!getenv("AMBULO_LONG")) skip();                                                            \
+  } while (0)
+
 #endif

@@ -177,6 +177,7 @@ static stride_loads run_with(const char *devices, const char *step_time) {
  * tendon, the shorter with it; each body runs with its own. */
 static void a_tendon_between_the_feet_asks_for_quicker_steps(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   static const char *const quick = "gait.step_time=0.381", *const slow = "gait.step_time=0.4";
   stride_loads without = run_with("devices=null", slow), with = run_with(NULL, quick);
   assert_true(without.cost < 0.999 * run_with("devices=null", quick).cost);
@@ -208,6 +209,7 @@ static double cost_of(int runs, const char *speed, const char *step_time) {
 /* people change over at 1.9 to 2.1 m/s, and so it is here (docs/guide-gait.md) */
 static void walking_is_cheaper_when_slow_running_when_fast(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   double slow[2] = {cost_of(0, "gait.speed=1.9", "gait.step_time=0.43"),
                     cost_of(1, "gait.speed=1.9", "gait.step_time=0.42")};
   double fast[2] = {cost_of(0, "gait.speed=2.1", "gait.step_time=0.405"),

@@ -302,6 +302,7 @@ static void loaded_feet_slip_within_their_tolerance(void **state) {
 /* so that it is the tolerance that slips, not the arcs: less than 1 mm/s rms, 2 mm/s at most */
 static void feet_that_are_held_do_not_slip(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   static const char *const settings[] = {"trajectory.intervals=28",
                                          "constraints.contact_tolerance=4e-6",
                                          "constraints.orientation_tolerance=4e-5"};

@@ -159,6 +159,7 @@ static void check_grip(const task *k) {
  * 150 to 220 N m. */
 static void a_box_from_the_floor_to_a_table(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   task k;
   open_task(&k, "lift");
   check_momentum(&k);

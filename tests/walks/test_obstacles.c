@@ -55,6 +55,7 @@ static double expect_margins(const task *k, double obstacle, double legs) {
 
 static void over_a_beam(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   task k;
   open_task(&k, "step_over");
   assert_true(expect_margins(&k, 0.02, 0.0) < 0.03); /* and hardly higher than it has to */
