@@ -8,6 +8,11 @@
 static const char chains[] =
     "axes:\n  - {key: time.intervals, name: n, values: [8, 10]}\n"
     "  - {key: time.duration, name: T, values: [1, 2, 3]}\nstart_from: neighbour\nalong: T\n";
+static const char front_problem[] =
+    "ambulo: 1\nkind: problem\nname: swing\nmodel: one.yaml\n"
+    "angles: radians\ntime: {duration: 1.0, intervals: 10}\ntrajectory: {intervals: 6}\n"
+    "ends: {initial: {pin: 0}, final: {pin: 1}}\n"
+    "objective:\n  - {term: torque_squared, weight: 1}\n  - {term: acceleration, weight: 1}\n";
 static ambulo_allocator plain;
 
 static ambulo__supervisor open_run(void **state, const ambulo_sweep *sweep, int shard, int shards) {
@@ -144,9 +149,43 @@ static void as_memory_allows(void **state) {
   assert_true(ambulo_batch_workers(64, (int)(0.3 * megabytes)) <= 6);
 }
 
+/* options that mean nothing: of batches, fronts and fits; nothing is made */
+static void arguments(void **state) {
+  ambulo_sweep *sweeps[2];
+  sweeps[0] = sweep_of(state, chains);
+  assert_int_equal(sweep_load_over(state, front_problem,
+                                   "front: {terms: [torque_squared, acceleration], points: 5}\n",
+                                   NULL, NULL, &sweeps[1]),
+                   AMBULO_OK);
+  const char *folder = scratch_path(state, "out");
+  int entries = entries_in(*state);
+  for (int s = 0; s < 2; s++) {
+    for (int i = 0; i < 12; i++) {
+      ambulo_batch_options o = ambulo_batch_options_default();
+      if (i == 0) o.size = 0;
+      if (i == 1) o.shards = 0;
+      if (i == 2) o.shard = 0;
+      if (i == 3) o.shard = o.shards + 1;
+      if (i == 4) o.workers = -1;
+      if (i == 5) o.workers = 4097;
+      if (i == 6) o.case_seconds = 0.0;
+      if (i == 7) o.case_seconds = -1.0;
+      if (i == 8) o.case_megabytes = -1;
+      if (i == 9) o.grace = -1.0;
+      ambulo_status status = ambulo_batch_run(i == 10 ? NULL : sweeps[s], i == 11 ? NULL : folder,
+                                              &o, NULL, NULL, NULL);
+      if (status != AMBULO_E_ARGUMENT) print_error("option %d of %d\n", i, s);
+      assert_int_equal(status, AMBULO_E_ARGUMENT);
+    }
+    ambulo_sweep_free(sweeps[s]);
+  }
+  assert_int_equal(entries_in(*state), entries);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {
+      TEST(arguments),
       TEST(a_chain_goes_on_in_its_order),
       TEST(shards_take_whole_chains_and_every_case_once),
       TEST(records_are_taken_when_they_fit),
