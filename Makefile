@@ -42,7 +42,8 @@ endif
 # ------------------------------------------------------------------- flags
 
 VERSION := $(shell sed -n 's/^.define AMBULO_VERSION_STRING "\(.*\)"/\1/p' include/ambulo/ambulo.h)
-SOVERSION := $(firstword $(subst ., ,$(VERSION)))
+# of the first number; in 0.x, where every minor release may break, of both (docs/release.md)
+SOVERSION := $(shell echo $(VERSION) | sed -E 's/^(0\.[0-9]+|[0-9]+)\..*/\1/')
 MACHINE := $(shell $(CC) -dumpmachine 2>/dev/null || uname -m)
 X86 := $(filter x86_64%,$(MACHINE))
 
@@ -75,6 +76,12 @@ ifeq ($(VARIANT),release)
   KERNEL += -fno-stack-protector
 endif
 
+# What debuggers read names files from here: the folder of a build is in none of its bytes
+# (make check-reproducible).
+ifeq ($(VARIANT),release)
+  PLACELESS = -ffile-prefix-map=$(CURDIR)=.
+endif
+
 # with ENGINE=1, as `make engine` has it, src/engine is all there is
 ALL_CPPFLAGS = -Iinclude $(if $(ENGINE),,-Isrc -Isrc/files )-Isrc/engine -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) $(MODE) $(FLOATING) -fPIC -fvisibility=hidden
@@ -88,11 +95,14 @@ LAPACK_LIBS = $(or $(call probe,openblas,--libs),$(if $(call links,-lopenblas),-
   $(call probe,lapack blas,--libs),-llapack -lblas)
 ifeq ($(shell uname -s),Darwin)
   export PKG_CONFIG_PATH := $(PKG_CONFIG_PATH):$(shell brew --prefix openblas 2>/dev/null)/lib/pkgconfig
+  ARCHIVE_FLAGS := rcs
   # what POSIX alone does not name: MAP_ANONYMOUS, _SC_NPROCESSORS_ONLN
   ALL_CPPFLAGS += -D_DARWIN_C_SOURCE
   shared_name = libambulo$(if $(ENGINE),_engine)$(1).dylib
   SHARED := -dynamiclib -install_name @rpath/$(call shared_name,.$(SOVERSION))
 else
+  # D: neither times nor owners
+  ARCHIVE_FLAGS := rcsD
   shared_name = libambulo$(if $(ENGINE),_engine).so$(1)
   HARDENED_LINK = $(if $(filter release,$(VARIANT)),-Wl$(comma)-z$(comma)relro -Wl$(comma)-z$(comma)now -Wl$(comma)-z$(comma)noexecstack)
   # the engine's functions are of version AMBULO_0, those of the tools of AMBULO_TOOLS_0
@@ -141,7 +151,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth check-judge wheel viewer coverage mutate \
-  lint lint-format lint-static lint-order lint-size lint-symbols lint-hardening lint-callers lint-mirror \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-hardening lint-abi lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
   install uninstall clean force
@@ -182,6 +192,7 @@ help:
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
 	@echo 'make deb          Debian packages of the build, in build/deb; lintian, where it is there'
+	@echo 'make check-reproducible  two builds in unlike surroundings: library, program, wheel and packages equal in every byte'
 	@echo 'make book         the pages of docs/ as one, build/book/ambulo.html (needs pandoc)'
 	@echo 'make cross-objects  compile for aarch64 and for musl, where the compilers are there'
 	@echo 'make clean        remove build/'
@@ -197,7 +208,7 @@ define RECORD
 @mkdir -p $(@D); echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
 endef
 $(OUT)/obj/flags: force | build/.found
-	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(HARDENED) $(KERNEL) $(KERNEL_avx512) $(KERNEL_avx2) $(CFLAGS))
+	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(HARDENED) $(PLACELESS) $(KERNEL) $(KERNEL_avx512) $(KERNEL_avx2) $(CFLAGS))
 SOURCES_RECORD := $(OUT)/obj/$(notdir $(ARCHIVE)).sources
 $(SOURCES_RECORD): force
 	$(call RECORD,$(SOURCES) $(LDFLAGS) $(LIBS))
@@ -205,7 +216,7 @@ $(SOURCES_RECORD): force
 # commands are shown with V=1
 quiet = $(if $(V),,@echo '  $(1)'; )
 kernel_flags = $(KERNEL) $(KERNEL_$(patsubst kernels_%,%,$(patsubst band_%,%,$(basename $(notdir $<)))))
-compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(filter src/%,$<),$(HARDENED)) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
+compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(filter src/%,$<),$(HARDENED)) $(if $(filter tests/% bench/%,$<),,$(PLACELESS)) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
 
 define compile_kernel
 	@mkdir -p $(@D)
@@ -242,7 +253,7 @@ $(OUT)/obj/engine_digest.o: $(OUT)/obj/engine_digest.c $(OUT)/obj/flags
 
 $(ARCHIVE): $(LIB_OBJECTS) $(SOURCES_RECORD)
 	@rm -f $@
-	$(call quiet,AR $@)$(AR) rcs $@ $(LIB_OBJECTS)
+	$(call quiet,AR $@)$(AR) $(ARCHIVE_FLAGS) $@ $(LIB_OBJECTS)
 
 $(OUT)/obj/libambulo.map: $(HEADERS) .setup/symbols.sh
 	@mkdir -p $(@D); .setup/symbols.sh map > $@
@@ -450,7 +461,7 @@ mutate: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols hardening callers mirror headers interface equations reading keys architecture words leftovers
+LINT := format static order size symbols hardening abi callers mirror headers interface equations reading keys architecture words leftovers
 FORMATTED = $(wildcard include/ambulo/*.h include/ambulo/tools/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
@@ -487,6 +498,8 @@ lint-headers:
 	@CC='$(CC)' .setup/lint_headers.sh
 lint-interface:
 	@.setup/lint_interface.sh
+lint-abi:
+	@CC='$(CC)' .setup/lint_abi.sh
 lint-equations:
 	@.setup/lint_equations.sh
 lint-reading:
@@ -570,6 +583,11 @@ deb: build/.ready-build
 	$(submake) all
 	@.setup/deb.sh $(OUT) build/deb
 	@if command -v lintian >/dev/null; then lintian --fail-on error,warning build/deb/*.deb; fi
+
+# two builds, two folders, two of everything that may differ between machines: the same bytes
+.PHONY: check-reproducible
+check-reproducible: build/.ready-build
+	@JOBS=$(JOBS) CC='$(CC)' .setup/reproducible.sh
 
 clean:
 	rm -rf build

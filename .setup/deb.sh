@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # deb.sh BUILD FOLDER: Debian packages of what was built in BUILD, into FOLDER: ambulo (program, manual,
-# models), libambulo0, libambulo-dev. `make deb` calls it. Needs dpkg-dev.
+# models), libambulo and the number of its soname, libambulo-dev. `make deb` calls it. Needs dpkg-dev.
 #
 # Made by dpkg-deb from an install below a folder of its own: no debian/ among the sources. Who builds a
 # package is its maintainer: DEBFULLNAME and DEBEMAIL, or what git knows.
@@ -20,8 +20,8 @@ make --no-print-directory -o all OUT="$out" install DESTDIR="$work/all" PREFIX=/
   LIBDIR="/usr/lib/$tuple"
 title=$(sed -n 1p "$work/all/usr/share/man/man1/ambulo.1")
 version=$(echo "$title" | sed 's/.*"ambulo \(.*\)".*/\1/') day=$(echo "$title" | awk '{ print $4 }')
-soname=$(basename "$(find "$work/all/usr/lib" -name 'libambulo.so.[0-9]')")
-so=${soname##*.}
+soname=$(basename "$(find "$work/all/usr/lib" -type l -name 'libambulo.so.*')")
+so=${soname#libambulo.so.}
 export SOURCE_DATE_EPOCH
 SOURCE_DATE_EPOCH=$(date -u -d "$day" +%s)
 
@@ -78,6 +78,10 @@ for option in $(sed -n 's/^Libs.private: //p' "$work/libambulo-dev/$lib/pkgconfi
   esac
 done
 
+# KiB as dpkg-gencontrol counts them: whole ones of each file, one for what else there is. Blocks of the
+# file system would differ between machines.
+size() { find "$1" -printf '%y %s\n' | awk '{ sum += $1 == "f" ? int(($2 + 1023) / 1024) : 1 } END { print sum }'; }
+
 mkdir -p "$folder"
 for package in ambulo "libambulo$so" libambulo-dev; do
   root=$work/$package
@@ -94,7 +98,7 @@ for package in ambulo "libambulo$so" libambulo-dev; do
     sed -n 1p "$work/stanza"
     [ "$package" = ambulo ] || echo 'Source: ambulo'
     printf 'Version: %s\nArchitecture: %s\nMaintainer: %s <%s>\n' "$version" "$arch" "$name" "$mail"
-    printf 'Installed-Size: %s\nPriority: optional\n' "$(du -sk --exclude=DEBIAN "$root" | cut -f 1)"
+    printf 'Installed-Size: %s\nPriority: optional\n' "$(size "$root/usr")"
     sed 1d "$work/stanza"
   } >"$root/DEBIAN/control"
   if [ "$package" = "libambulo$so" ]; then
@@ -102,6 +106,6 @@ for package in ambulo "libambulo$so" libambulo-dev; do
     echo 'activate-noawait ldconfig' >"$root/DEBIAN/triggers"
   fi
   (cd "$root" && find usr -type f | LC_ALL=C sort | xargs md5sum) >"$root/DEBIAN/md5sums"
-  find "$root" -newermt "$day" -exec touch -h -d "$day" {} +
+  find "$root" -exec touch -h -d "$day UTC" {} +
   dpkg-deb --root-owner-group -Zxz --build "$root" "$folder/${package}_${version}_$arch.deb"
 done

@@ -27,8 +27,8 @@ for file in "$library" "$program"; do
 done
 expect "$program: it is not position-independent" has 'PIE' -dW "$program"
 expect "$library: its soname is not libambulo.so.$soversion" \
-  has "SONAME.*\[libambulo\.so\.$soversion\]" -dW "$library"
-expect "$library: no symbol versions" has "Name: AMBULO_$soversion" -VW "$library"
+  has "SONAME.*\[libambulo\.so\.${soversion//./\\.}\]" -dW "$library"
+expect "$library: no symbol versions" has "Name: AMBULO_${soversion%%.*}" -VW "$library"
 unversioned=$(nm -D --defined-only --with-symbol-versions "$library" | awk '$2 != "A" && $NF !~ /@@AMBULO/ { print $NF }')
 [ -z "$unversioned" ] || { echo "$library: without a version: $unversioned"; faults=1; }
 [ "$faults" = 0 ] && echo 'stacks, sizes, addresses, soname and versions are as they should be'

@@ -145,6 +145,8 @@ def bundle(wheel, folder):
 
 
 def make_wheel(library, folder):
+    os.umask(0o022)  # the same modes and times for everyone; zip knows none before 1980
+    os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800")
     wheel = write_wheel(library, folder)
     bundled = bundle(wheel, folder)
     print(f"{bundled or wheel}")

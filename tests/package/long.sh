@@ -134,6 +134,25 @@ same_release() { # version and date wherever they are written
 }
 check 'CITATION.cff, manual and header are of one release' same_release
 
+# ------------------------------------------------------------ the interface
+
+# what lint-abi says to a header that COMMAND changed, in a release that may not break programs
+verdict_on() { # COMMAND HEADER
+  rm -rf "$work/include"
+  cp -R include "$work/include"
+  sed -i.bak "$1" "$work/include/ambulo/$2" && ! cmp -s "$work/include/ambulo/$2" "include/ambulo/$2" || return 2
+  ABI_BASE=$work/1.0.0.txt ABI_NEXT=1.1.0 ABI_INCLUDE=$work/include .setup/lint_abi.sh
+}
+breaks() { verdict_on "$1" "$2" | tee /dev/stderr | grep -q '^programs of 1.0.0 break: 1 lines'; }
+if has readelf 'the interface against an older one' && [ "$(getconf LONG_BIT)" = 64 ]; then
+  check 'the interface is printed' sh -c ".setup/lint_abi.sh --print >'$work/1.0.0.txt' && grep -q '^function' '$work/1.0.0.txt'"
+  check 'an argument more breaks programs' breaks 's/is_solution(ambulo_verdict verdict)/is_solution(ambulo_verdict verdict, int x)/' solve.h
+  check 'a function of another name breaks programs' breaks 's/ambulo_verdict_is_solution(/ambulo_verdict_is_one(/' solve.h
+  check 'a member of another type breaks programs' breaks 's/^  int maximum_evaluations;/  float maximum_evaluations;/' solve.h
+  check 'a structure without a size must not grow' breaks 's/^} ambulo_progress;/  double more;\n} ambulo_progress;/' solve.h
+  check 'a structure with a size may' verdict_on 's/^} ambulo_options;/  double more;\n} ambulo_options;/' solve.h
+fi
+
 # --------------------------------------------------------------- completion
 
 completion=$share/bash-completion/completions/ambulo
@@ -152,7 +171,7 @@ expect() { # EXPECTED WORDS...
 mkdir -p "$work/files/a folder"
 touch "$work/files/my walk.yaml" "$work/files/other.csv"
 check 'bash: commands' expect 'collect compare ' ambulo co
-check 'bash: options' expect '--repeat ' ambulo solve x --re
+check 'bash: options' expect '--repeat ' ambulo solve x --rep
 check 'bash: choices of a value' expect 'mirrored periodic ' ambulo solve x --repeat ''
 check 'bash: a choice or a file' expect 'a folder my walk.yaml other.csv zero ' \
   ambulo solve x --start ''
@@ -264,7 +283,7 @@ if [ -z "$sanitized" ] && has dpkg-deb 'Debian packages' && has dpkg-shlibdeps '
   }
   check 'the program of the package solves' from_package
   alike() { # the same build gives the same bytes
-    .setup/deb.sh "$out" "$work/again" && cmp "$work"/deb/ambulo_*.deb "$work"/again/ambulo_*.deb
+    .setup/deb.sh "$out" "$work/again" && diff -r "$work/deb" "$work/again"
   }
   check 'packages are reproducible' alike
   if has lintian 'Debian packages, linted'; then
