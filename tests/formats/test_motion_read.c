@@ -104,6 +104,11 @@ static const struct {
     {"a.csv", "time,q,p,q\n0,1,2,3\n", AMBULO_E_SCHEMA,
      "a.csv:1:10: error[E_SCHEMA]: duplicate column 'q' (also column 2)"},
     {"a.csv", "time,,q\n0,1,2\n", AMBULO_E_SCHEMA, "column name of 0 characters"},
+    {"a.csv", "time,q\x01z\n0,1\n", AMBULO_E_SCHEMA,
+     "a.csv:1:6: error[E_SCHEMA]: column name 'q\\x01z' contains the character 0x01"},
+    {"a.csv", "time,q\x7f\n0,1\n", AMBULO_E_SCHEMA, "contains the character 0x7f"},
+    {"a.sto", "t\nendheader\ntime\tq,z\n0\t1\n", AMBULO_E_SCHEMA, "contains the character 0x2c"},
+    {"a.sto", "t\nendheader\ntime\tq\"\n0\t1\n", AMBULO_E_SCHEMA, "contains the character 0x22"},
     {"a.csv", "time,q\x1b[31m\n0,1\n", AMBULO_E_SCHEMA, "character 0x1b"},
     {"a.csv", "# inDegrees=maybe\ntime,q\n0,1\n", AMBULO_E_SCHEMA,
      "a.csv:1:13: error[E_SCHEMA]: "

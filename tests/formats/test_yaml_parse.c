@@ -38,6 +38,36 @@ static void bytes_that_are_no_text(void **state) {
                  "t.yaml:1:5: error[E_PARSE]: got the control character U+FEFF; expected text");
 }
 
+/* the first and the last of each range that no text has, and their neighbours, which it may have */
+static void controls(void **state) {
+  (void)state;
+  static const struct {
+    const char *bytes;
+    unsigned code;
+  } bad[] = {{"\x7f", 0x7f},           {"\xc2\x80", 0x80},       {"\xc2\x84", 0x84},
+             {"\xc2\x86", 0x86},       {"\xc2\x9f", 0x9f},       {"\xef\xbb\xbf", 0xfeff},
+             {"\xef\xbf\xbe", 0xfffe}, {"\xef\xbf\xbf", 0xffff}, {"\x1f", 0x1f}};
+  static const char *const good[] = {"\xc2\x85",        "\xc2\xa0",     "~x",
+                                     "\xef\xbb\xbe",    "\xef\xbf\xbd", "\xf0\x90\x80\x80",
+                                     "\xf4\x8f\xbf\xbf"};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    char text[32], want[128];
+    (void)snprintf(text, sizeof text, "a: 'x%s'\n", bad[i].bytes);
+    (void)snprintf(want, sizeof want,
+                   "t.yaml:1:6: error[E_PARSE]: got the control character U+%04X; expected text",
+                   bad[i].code);
+    expect_refused(text, strlen(text), want);
+  }
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    char text[32];
+    (void)snprintf(text, sizeof text, "a: 'x%s'\n", good[i]);
+    yaml_case c = yaml_open(text);
+    if (c.status) print_error("%zu\n", i);
+    assert_int_equal(c.status, AMBULO_OK);
+    yaml_shut(&c);
+  }
+}
+
 static void columns_count_characters_and_lines_any_break(void **state) {
   (void)state;
   EXPECT_REFUSED("a: \xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\x01",
@@ -297,6 +327,7 @@ static void out_of_memory_anywhere(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(bytes_that_are_no_text),
+                                     cmocka_unit_test(controls),
                                      cmocka_unit_test(columns_count_characters_and_lines_any_break),
                                      cmocka_unit_test(directives),
                                      cmocka_unit_test(tab_indentation),
