@@ -107,7 +107,6 @@ static void curvatures(const points *p, double *s, double *work) {
     } else { /* s_(n-1) - s_n = -h D_n */
       diagonal = -before;
       right = -before * before * third(p, n - 3);
-      h = 0.0;
     }
     double pivot = diagonal - before * work[i - 1];
     work[i] = h / pivot;

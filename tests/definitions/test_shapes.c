@@ -150,9 +150,60 @@ static void what_may_be_free(void **state) {
   }
 }
 
+/* calls without what they need; nothing is touched */
+static void arguments(void **state) {
+  (void)state;
+  static const char text[] = HEAD("pendulum") NONE;
+  const char *const none[] = {NULL}, *const wrong[] = {"time.intervals"};
+  for (int i = 0; i < 8; i++) {
+    ambulo_problem *problem = NULL;
+    ambulo_problem_text given = {.size = sizeof given,
+                                 .text = text,
+                                 .length = sizeof text - 1,
+                                 .name = "p.yaml",
+                                 .directory = "models"};
+    if (i == 0) given.size = 0;
+    if (i == 1) given.text = NULL;
+    if (i == 2) given.override_count = -1;
+    if (i == 3) given.override_count = 1;
+    if (i == 4 || i == 5) given.override_count = 1;
+    if (i == 4) given.overrides = none;
+    if (i == 5) given.overrides = wrong;
+    ambulo_status status =
+        ambulo_problem_load_text(i == 6 ? NULL : &given, NULL, NULL, i == 7 ? NULL : &problem);
+    assert_int_equal(status, AMBULO_E_ARGUMENT);
+    assert_null(problem);
+  }
+  ambulo_problem *problem = NULL;
+  ambulo_model *model = NULL;
+  ambulo_file_kind kind;
+  double x = 7.0;
+  assert_int_equal(ambulo_problem_load(NULL, NULL, 0, NULL, NULL, &problem), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_load("x", NULL, 0, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_load("x", NULL, 1, NULL, NULL, &problem), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_load("x", none, -1, NULL, NULL, &problem), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_load("models/walk.yaml", none, 1, NULL, NULL, &problem),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_model_load(NULL, NULL, NULL, NULL, &model), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_model_load("x", NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_model_load_text(NULL, 0, "m", NULL, NULL, NULL, &model),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_model_load_text("", 0, "m", NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_file_kind_of(NULL, NULL, NULL, &kind), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_file_kind_of("x", NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_solution_load(NULL, NULL, NULL, NULL, &x), AMBULO_E_ARGUMENT);
+  problem = problem_of(text);
+  assert_int_equal(ambulo_solution_load(NULL, problem, NULL, NULL, &x), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_solution_load("x", NULL, NULL, NULL, &x), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_solution_load("x", problem, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_true(x == 7.0);
+  assert_null(model);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_has_another_shape),
-                                     cmocka_unit_test(pairs_that_overlap),
-                                     cmocka_unit_test(what_may_be_free)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_has_another_shape), cmocka_unit_test(arguments),
+      cmocka_unit_test(pairs_that_overlap), cmocka_unit_test(what_may_be_free)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
