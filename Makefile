@@ -345,7 +345,9 @@ check-slurm: build/.ready-build
 PYTHON_PATH = PATH='$(CURDIR)/build/python-venv/bin':"$$PATH"
 wheel: build/.ready-build build/.ready-python
 	$(submake) $(SHARED_LIBRARY) $(OUT)/ambulo
-	@$(PYTHON_PATH) python src/python/package.py wheel $(SHARED_LIBRARY) $(OUT)/wheel
+	@$(PYTHON_PATH); if PYTHON=python .setup/old_glibc.sh $(OUT) $(OUT)/old-glibc; \
+	  then library=$(OUT)/old-glibc/libambulo.so; else [ $$? = 3 ] || exit 1; library=$(SHARED_LIBRARY); fi; \
+	  LD_LIBRARY_PATH=$(OUT)/old-glibc python src/python/package.py wheel $$library $(OUT)/wheel
 
 check-python: build/.ready-build build/.ready-python
 	$(submake) all

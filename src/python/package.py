@@ -6,7 +6,7 @@
 The program `ambulo` beside LIBRARY goes along: it runs the cases of batches and fits. The wheel holds no compiled Python module (cffi opens the library at run time), so one serves every
 Python 3 of its platform: py3-none-PLATFORM. NLopt, libyaml and the LAPACK are those of the system,
 unless auditwheel and patchelf are there: then they go into the wheel, and its platform is the oldest
-manylinux that it runs on. AMBULO_WHEEL=system keeps to the system's all the same.
+manylinux that it runs on (`make wheel` first links for an old one: .setup/old_glibc.sh). AMBULO_WHEEL=system keeps to the system's all the same.
 
 Reading order: package.py, generate.py; ambulo/_native.py, ambulo/errors.py, ambulo/records.py,
 ambulo/model.py, ambulo/mechanics.py, ambulo/problem.py, ambulo/callbacks.py, ambulo/motion.py,
