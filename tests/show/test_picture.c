@@ -269,11 +269,90 @@ static void what_cannot_be(void **state) {
   assert_int_equal(ambulo_picture_convert(good, "x.svg", &o, NULL, NULL), AMBULO_E_ARGUMENT);
 }
 
+/* options beyond their bounds, names that end otherwise: nothing is written */
+static void arguments(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  const char *output = scratch_path(state, "a.svg");
+  for (int i = 0; i < 15; i++) {
+    ambulo_picture_options o = ambulo_picture_options_default();
+    if (i == 0) o.size = 0;
+    if (i == 1) o.parts = (ambulo_picture_parts)-1;
+    if (i == 2) o.parts = (ambulo_picture_parts)(AMBULO_PICTURE_CURVES + 1);
+    if (i == 3) o.millimetres = 0.0;
+    if (i == 4) o.millimetres = -1.0;
+    if (i == 5) o.millimetres = 2000.5;
+    if (i == 6) o.dots_per_inch = 9.5;
+    if (i == 7) o.dots_per_inch = 2400.5;
+    const char *name = i == 8    ? NULL
+                       : i == 9  ? "svg"
+                       : i == 10 ? ".svg"
+                       : i == 11 ? "a.svgz"
+                                 : output;
+    ambulo_status status =
+        ambulo_picture_write(i == 12 ? NULL : w.problem, i == 13 ? NULL : w.result, name,
+                             i == 14 ? NULL : &o, NULL, NULL);
+    assert_int_equal(status, i == 14 ? AMBULO_OK : AMBULO_E_ARGUMENT);
+    if (i < 12 && i != 8)
+      assert_int_equal(ambulo_picture_convert("a", name, &o, NULL, NULL), AMBULO_E_ARGUMENT);
+  }
+  assert_int_equal(ambulo_picture_convert(NULL, output, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(entries_in(*state), 1); /* with the defaults */
+  walk_close(&w);
+}
+
+/* what is there and not empty is kept; an empty file is none */
+static void what_is_there(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  char path[SCRATCH_PATH];
+  (void)snprintf(path, sizeof path, "%s", scratch_path(state, "a.svg"));
+  scratch_write(path, "mine\n");
+  assert_int_equal(ambulo_picture_write(w.problem, w.result, path, NULL, NULL, NULL), AMBULO_E_IO);
+  assert_file_equal(path, "mine\n");
+  scratch_write(path, "");
+  assert_int_equal(ambulo_picture_write(w.problem, w.result, path, NULL, NULL, NULL), AMBULO_OK);
+  (void)snprintf(path, sizeof path, "%s/folder.svg", (const char *)*state);
+  assert_int_equal(mkdir(path, 0777), 0);
+  assert_int_equal(ambulo_picture_write(w.problem, w.result, path, NULL, NULL, NULL), AMBULO_E_IO);
+  walk_close(&w);
+}
+
+/* curves of people by hand: that are not there, of another joint, behind a motion that is no walk
+ */
+static void curves_of_people(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  char table[SCRATCH_PATH];
+  (void)snprintf(table, sizeof table, "%s", scratch_path(state, "people.csv"));
+  const char *output = scratch_path(state, "a.svg");
+  ambulo_picture_options o = ambulo_picture_options_default();
+  o.overwrite = 1;
+  o.reference = table;
+  assert_int_equal(ambulo_picture_write(w.problem, w.result, output, &o, NULL, NULL), AMBULO_E_IO);
+  scratch_write(table, "variable,percent,mean_deg,sd_deg\npelvic_tilt,0,1,2\n"
+                       "pelvic_tilt,50,2,2\npelvic_tilt,100,1,2\n");
+  for (int parts = 0; parts < 3; parts++) {
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    o.parts = (ambulo_picture_parts)parts;
+    ambulo_status status = ambulo_picture_write(w.problem, w.result, output, &o, NULL, list);
+    assert_int_equal(status, AMBULO_OK);
+    assert_int_equal(ambulo_diagnostics_count(list), parts != AMBULO_PICTURE_STRIP);
+    if (parts != AMBULO_PICTURE_STRIP)
+      assert_message(list, 0,
+                     "people.csv: warning: none of its curves is one that the picture has");
+    ambulo_diagnostics_free(list);
+  }
+  walk_close(&w);
+}
+
 #define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      WITH_SCRATCH(per_kg), WITH_SCRATCH(percent), WITH_SCRATCH(no_saw_teeth),  WITH_SCRATCH(names),
-      WITH_SCRATCH(parts),  WITH_SCRATCH(formats), WITH_SCRATCH(what_cannot_be)};
+  const struct CMUnitTest tests[] = {WITH_SCRATCH(per_kg),         WITH_SCRATCH(percent),
+                                     WITH_SCRATCH(no_saw_teeth),   WITH_SCRATCH(names),
+                                     WITH_SCRATCH(parts),          WITH_SCRATCH(formats),
+                                     WITH_SCRATCH(what_cannot_be), WITH_SCRATCH(arguments),
+                                     WITH_SCRATCH(what_is_there),  WITH_SCRATCH(curves_of_people)};
   return cmocka_run_group_tests_name("picture/picture", tests, NULL, NULL);
 }
