@@ -192,6 +192,7 @@ help:
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
 	@echo 'make deb          Debian packages of the build, in build/deb; lintian, where it is there'
+	@echo 'make sbom         what a build links and bundles, with licences, as CycloneDX: build/sbom.cdx.json'
 	@echo 'make check-reproducible  two builds in unlike surroundings: library, program, wheel and packages equal in every byte'
 	@echo 'make book         the pages of docs/ as one, build/book/ambulo.html (needs pandoc)'
 	@echo 'make cross-objects  compile for aarch64 and for musl, where the compilers are there'
@@ -347,7 +348,7 @@ wheel: build/.ready-build build/.ready-python
 	$(submake) $(SHARED_LIBRARY) $(OUT)/ambulo
 	@$(PYTHON_PATH); if PYTHON=python .setup/old_glibc.sh $(OUT) $(OUT)/old-glibc; \
 	  then library=$(OUT)/old-glibc/libambulo.so; else [ $$? = 3 ] || exit 1; library=$(SHARED_LIBRARY); fi; \
-	  LD_LIBRARY_PATH=$(OUT)/old-glibc python src/python/package.py wheel $$library $(OUT)/wheel
+	  LD_LIBRARY_PATH="$(CURDIR)/$(OUT)/old-glibc" python src/python/package.py wheel $$library $(OUT)/wheel
 
 check-python: build/.ready-build build/.ready-python
 	$(submake) all
@@ -585,6 +586,11 @@ deb: build/.ready-build
 	$(submake) all
 	@.setup/deb.sh $(OUT) build/deb
 	@if command -v lintian >/dev/null; then lintian --fail-on error,warning build/deb/*.deb; fi
+
+.PHONY: sbom
+sbom: build/.ready-build
+	$(submake) $(OUT)/ambulo
+	@.setup/sbom.py $(OUT)/ambulo $(OUT)/sbom.cdx.json && echo $(OUT)/sbom.cdx.json
 
 # two builds, two folders, two of everything that may differ between machines: the same bytes
 .PHONY: check-reproducible

@@ -82,12 +82,20 @@ done
 # file system would differ between machines.
 size() { find "$1" -printf '%y %s\n' | awk '{ sum += $1 == "f" ? int(($2 + 1023) / 1024) : 1 } END { print sum }'; }
 
+# what is linked and bundled, with its licences
+if command -v python3 >/dev/null; then
+  "$here/.setup/sbom.py" "$out/ambulo" "$work/sbom"
+else
+  echo 'skipped without python3: the list of what is linked and bundled'
+fi
+
 mkdir -p "$folder"
 for package in ambulo "libambulo$so" libambulo-dev; do
   root=$work/$package
   doc=$root/usr/share/doc/$package
   mkdir -p "$doc" "$root/DEBIAN"
   cp "$here/.setup/debian/copyright" "$doc/copyright"
+  [ ! -f "$work/sbom" ] || cp "$work/sbom" "$doc/sbom.cdx.json"
   printf 'ambulo (%s) unstable; urgency=medium\n\n  * Release %s. What changed: CHANGELOG.md of the sources.\n\n -- %s <%s>  %s\n' \
     "$version" "$version" "$name" "$mail" "$(LC_ALL=C date -u -d "$day" '+%a, %d %b %Y %H:%M:%S +0000')" |
     gzip -9n >"$doc/changelog.gz"

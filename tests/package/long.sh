@@ -263,7 +263,7 @@ if [ -z "$sanitized" ] && has dpkg-deb 'Debian packages' && has dpkg-shlibdeps '
     for package in "$work"/deb/*.deb; do dpkg-deb -x "$package" "$work/unpacked" || return 1; done
     gzip -d "$work"/unpacked/usr/share/man/man*/*.gz
     diff <(cd "$work/unpacked/usr" && find . ! -type d | sed 's|lib/[^/]*-[^/]*/|lib/|; s|zsh/vendor-completions|zsh/site-functions|' |
-      grep -v 'doc/[^/]*/\(copyright\|changelog.gz\)$' | LC_ALL=C sort) \
+      grep -v 'doc/[^/]*/\(copyright\|changelog.gz\|sbom.cdx.json\)$' | LC_ALL=C sort) \
       <(cd "$root$prefix" && find . ! -type d ! -name manifest ! -path ./share/doc/ambulo/LICENSE | LC_ALL=C sort)
   }
   check 'the packages hold what make install writes, each file once' together
@@ -277,6 +277,21 @@ if [ -z "$sanitized" ] && has dpkg-deb 'Debian packages' && has dpkg-shlibdeps '
     [ "$(wc -l <<<"$libraries")" = "$(wc -l <<<"$needs")" ]
   }
   check 'the package of headers asks for what the static library needs' links_with_its_packages
+  if has python3 'the list of what is linked and bundled'; then
+    lists_what_it_links() { # each library that the program asks for, and the packages of the page
+      local bill name
+      bill=$work/unpacked/usr/share/doc/ambulo/sbom.cdx.json
+      for name in nlopt libyaml three uplot fflate; do grep -q "\"name\": \"$name\"" "$bill" || { echo "no $name"; return 1; }; done
+      cmp "$bill" <(.setup/sbom.py "$out/ambulo")
+    }
+    unknown_is_refused() { # without its entry, NLopt is a library of no known licence
+      mkdir -p "$work/bill/.setup" && cp -R include "$work/bill" || return 2
+      sed '/"libnlopt":/d' .setup/sbom.py >"$work/bill/.setup/sbom.py"
+      ! python3 "$work/bill/.setup/sbom.py" "$out/ambulo" >"$work/said" 2>&1 && grep 'no licence is known' "$work/said"
+    }
+    check 'the list of what is linked and bundled' lists_what_it_links
+    check 'a library without a known licence is refused' unknown_is_refused
+  fi
   from_package() {
     mkdir "$work/elsewhere"
     (cd "$work/elsewhere" && "$work/unpacked/usr/bin/ambulo" solve pendulum_swing -q -o swing)
