@@ -105,10 +105,10 @@ def write_wheel(library, folder):
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: ambulo\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{platform}\n").encode()
     files[f"{info}/entry_points.txt"] = b"[console_scripts]\nambulo = ambulo.processes:main\n"
-    # where PEP 770 looks for it
-    files[f"{info}/sboms/ambulo.cdx.json"] = subprocess.run(
-        [sys.executable, str(TOP / ".setup" / "sbom.py"), str(Path(library).with_name("ambulo"))],
-        check=True, stdout=subprocess.PIPE).stdout
+    if sys.platform != "darwin":  # read by readelf; where PEP 770 looks for it
+        files[f"{info}/sboms/ambulo.cdx.json"] = subprocess.run(
+            [sys.executable, str(TOP / ".setup" / "sbom.py"), str(Path(library).with_name("ambulo"))],
+            check=True, stdout=subprocess.PIPE).stdout
     files[f"{info}/LICENSE"] = (TOP / "LICENSE").read_bytes()
     lines = [record_line(name, data) for name, data in files.items()] + [f"{info}/RECORD,,"]
     files[f"{info}/RECORD"] = ("\n".join(lines) + "\n").encode()
