@@ -9,8 +9,8 @@
 
 /* ---------------------------------------------------------------- round trip */
 
-/* A few steps of a solve of a problem file into <scratch>/walk; its motion.csv. What comes back does
- * so from every motion: it need not be the best. */
+/* A few steps of a solve of a problem file into <scratch>/walk; its motion.csv. What comes back
+ * does so from every motion: it need not be the best. */
 static const char *solve(void **state, const char *file, ambulo_problem **problem) {
   ambulo_result *result = NULL;
   ambulo_report_options options = ambulo_report_options_default();

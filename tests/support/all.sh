@@ -3,7 +3,7 @@
 # The last line is "N passed, N failed"; the exit status is 0 only when nothing failed.
 # Environment: OUT (build folder), JOBS, BUILD_STATUS (non-zero: something did not build),
 # TEST_WRAPPER (a command put before each program), TEST_TIMEOUT in seconds, COUNTS (a file that gets
-# a line "passed failed").
+# a line "passed failed"), SEED (a number: in random order, which it gives again; else the longest first).
 set -u
 out=${OUT:-build}
 logs=$out/logs
@@ -47,8 +47,13 @@ present=() missing=()
 for program in "${programs[@]}"; do
   if [ -x "${program%%:*}" ]; then present+=("$program"); else missing+=("$program"); fi
 done
+if [ -n "${SEED:-}" ]; then
+  echo "random order, again with SEED=$SEED"
+  mapfile -t present < <(printf '%s\n' "${present[@]}" | awk -v seed="$SEED" 'BEGIN { srand(seed) } { print rand(), $0 }' |
+    sort -n | cut -d" " -f2-)
+fi
 # those of longest.txt first, in its order
-[ ${#present[@]} = 0 ] || mapfile -t present < <(printf '%s\n' "${present[@]}" | awk -v list=tests/support/longest.txt '
+[ ${#present[@]} = 0 ] || [ -n "${SEED:-}" ] || mapfile -t present < <(printf '%s\n' "${present[@]}" | awk -v list=tests/support/longest.txt '
   BEGIN { while ((getline line < list) > 0) place[line] = ++lines }
   {
     n = split($0, part, "/")
