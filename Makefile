@@ -316,7 +316,8 @@ SCRIPTS := $(patsubst %,tests/cli/run.sh:%,$(notdir $(sort $(wildcard tests/cli/
   $(filter-out tests/cli/run.sh,$(sort $(wildcard tests/*/run.sh tests/*/run_*.sh)))
 LONG_SCRIPTS := tests/docs/run.sh:--all $(sort $(wildcard tests/*/long*.sh))
 LONG_TESTS := $(filter %/test_sensitivity_reference %/test_mirror %/test_auglag %/test_starts %/walks/test_run %/test_bounces \
-  %/test_obstacles %/test_held_tasks %/test_ground_work,$(TESTS))
+  %/test_obstacles %/test_held_tasks %/test_ground_work %/walks/test_walk %/test_whole_body \
+  %/test_sensitivity_errors %/test_node_types,$(TESTS))
 
 tests: $(TESTS)
 # what tests are compiled to, without linking: is every call still right?

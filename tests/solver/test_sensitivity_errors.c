@@ -59,6 +59,7 @@ static void check(const char *path) {
 
 static void of_a_run(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   check("models/walk_or_run.yaml");
 }
 

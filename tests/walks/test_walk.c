@@ -250,6 +250,7 @@ static void bodies_of_one_shape_walk_alike(void **state) {
 /* from zero, every 0.2 m/s: nowhere a stiff knee, and the objective has no steps */
 static void no_speed_ends_in_another_valley(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   enum { COUNT = 9 };
   double objective[COUNT];
   for (int i = 0; i < COUNT; i++) {

@@ -246,6 +246,7 @@ static void loaded_toes_stay_above_the_ground(void **state) {
  * degrees, no hand past a shoulder's height. One runner: -14 to -50 degrees at 3 m/s, r -.78. */
 static void running_arms_swing_on_bent_elbows(void **state) {
   (void)state;
+  ONLY_IN_CHECK_LONG();
   static const char *const speeds[] = {"gait.speed=2", "gait.speed=3", "gait.speed=5"};
   static const double most_r[] = {-0.5, -0.65, -0.8};
   double last = 40.0;
