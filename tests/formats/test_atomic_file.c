@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "formats/atomic_file.h"
 #include "formats/paths.h"
+#include "support/fail_alloc.h"
 #include "support/fail_io.h"
 #include "support/messages.h"
 #include "support/scratch.h"
@@ -273,6 +274,22 @@ static void the_start_of_a_file(void **state) {
 
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
+/* no block and no open file is left, where memory gives out either */
+static void nothing_is_left_open(void **state) {
+  const char *path = scratch_path(state, "f");
+  int open_before = access("/proc/self/fd", F_OK) == 0 ? entries_in("/proc/self/fd") : 0;
+  for (long k = 0;; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo_status status = ambulo__write_file(path, "x", 1, 1, &hook, NULL);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+    assert_int_equal(entries_in(*state), 0);
+  }
+  if (open_before) assert_int_equal(entries_in("/proc/self/fd"), open_before);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       WITH_SCRATCH(files_are_created_and_replaced),
@@ -284,6 +301,7 @@ int main(void) {
       WITH_SCRATCH(every_step_may_fail),
       WITH_SCRATCH(what_appears_in_the_meantime_is_kept),
       WITH_SCRATCH(stale_temporaries_do_not_block),
+      WITH_SCRATCH(nothing_is_left_open),
       cmocka_unit_test(siblings_differ_by_process_and_number),
       cmocka_unit_test_setup_teardown(writes_are_complete_or_report_why, scratch_open,
                                       scratch_close),

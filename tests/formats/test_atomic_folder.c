@@ -249,10 +249,27 @@ static void every_failed_allocation_is_survived(void **state) {
   assert_file_equal(scratch_path(state, "out/summary.json"), "{new}");
 }
 
+/* of what is replaced, with a folder in it, every stream is closed */
+static void nothing_is_left_open(void **state) {
+  const char *path = scratch_path(state, "out");
+  if (access("/proc/self/fd", F_OK) != 0) skip();
+  int open_before = entries_in("/proc/self/fd");
+  for (int i = 0; i < 3; i++) {
+    ambulo__folder *folder = begin(path, &mark);
+    fill(folder, "{");
+    if (i < 2)
+      assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
+    else
+      ambulo__folder_abort(folder, NULL);
+  }
+  assert_int_equal(entries_in("/proc/self/fd"), open_before);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       WITH_SCRATCH(a_folder_appears_only_on_commit),
       WITH_SCRATCH(an_aborted_folder_leaves_nothing),
+      WITH_SCRATCH(nothing_is_left_open),
       WITH_SCRATCH(a_failed_file_leaves_nothing),
       WITH_SCRATCH(an_empty_folder_is_taken),
       WITH_SCRATCH(earlier_results_are_replaced_only_when_asked),
