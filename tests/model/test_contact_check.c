@@ -76,7 +76,11 @@ static void feet(void **state) {
   chain c;
   chain_make(&c);
   c.feet[0].heel[0] = -1;
-  chain_bad(&c, AMBULO_E_MODEL, "foot 'foot' refers to points that do not exist");
+  char said[160];
+  (void)snprintf(said, sizeof said,
+                 "foot 'foot' refers to points that do not exist; expected point indices 0 to %d (",
+                 c.definition.point_count - 1);
+  chain_bad(&c, AMBULO_E_MODEL, said);
   chain_make(&c);
   c.feet[0].toe_center = 2;
   chain_bad(&c, AMBULO_E_MODEL, "refers to points that do not exist");

@@ -159,8 +159,36 @@ static void rows_are_what_their_names_say(void **state) {
   ambulo_model_free(model);
 }
 
+/* the node before a time and the share of the way to the next; times outside stand at the ends */
+static void nodes_before_times(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &problem), AMBULO_OK);
+  int last = ambulo_problem_node_count(problem) - 1;
+  double share = -1.0, end = ambulo_problem_node_time(problem, last);
+  for (int k = 0; k < last; k++) {
+    double from = ambulo_problem_node_time(problem, k),
+           to = ambulo_problem_node_time(problem, k + 1);
+    assert_int_equal(ambulo__node_at(problem, from, &share), k);
+    assert_close(share, 0.0, 1e-12);
+    assert_int_equal(ambulo__node_at(problem, from + 0.25 * (to - from), &share), k);
+    assert_close(share, 0.25, 1e-12);
+  }
+  assert_int_equal(ambulo__node_at(problem, -5.0, &share), 0);
+  assert_true(share == 0.0);
+  assert_int_equal(ambulo__node_at(problem, 5.0 * end, &share), last - 1);
+  assert_true(share == 1.0);
+  assert_true(isnan(ambulo_problem_node_time(problem, -1)));
+  assert_true(isnan(ambulo_problem_node_time(problem, last + 1)));
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nodes_before_times),
       cmocka_unit_test(torque_of_an_arm_at_rest_integrates_to_t_tau_squared),
       cmocka_unit_test(same_point_is_evaluated_once),
       cmocka_unit_test(non_finite_point_is_refused_and_outputs_stay),

@@ -7,7 +7,7 @@ those that it names. A test that fails, or takes ten times as long as before, ki
 compiler refuses is no fault: another one is drawn. Survivors are listed with place and change.
 
 tests/mutants.txt lists faults that no test can see, with the reason; they are not drawn. Neither are lines of
-enumerators and constant tables, most of which are capacities and names.
+enumerators, constant tables and attributes, most of which are capacities, names and hints.
 """
 import argparse
 import os
@@ -80,7 +80,7 @@ def draw(source, text, equivalent):
     code = blank(text)
     kind = random.choice(FAULTS)
     found = [match for match in kind[1].finditer(code)
-             if not re.match(r'\s*(enum \{|static const)', code[code.rfind('\n', 0, match.start()) + 1:])]
+             if not re.match(r'\s*(enum \{|static const|__attribute__)', code[code.rfind('\n', 0, match.start()) + 1:])]
     random.shuffle(found)
     for match in found:
         old = text[match.start():match.end()]
