@@ -69,6 +69,32 @@ static void texts(void **state) {
   }
 }
 
+/* no warning is lost: a problem without it is none */
+static ambulo_status load_warned(const ambulo_allocator *a, void *text) {
+  ambulo_problem *p = NULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status =
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = strlen(text),
+                                                      .name = "p",
+                                                      .directory = "models"},
+                               a, list, &p);
+  if (!status) assert_int_equal(ambulo_diagnostics_count(list), 1);
+  ambulo_diagnostics_free(list);
+  ambulo_problem_free(p);
+  return status;
+}
+
+static void a_warning(void **state) {
+  (void)state;
+  static fail_sites of_warnings;
+  char text[] = "ambulo: 1\nkind: problem\nmodel: lower_body_21.yaml\n"
+                "time: {duration: 1, intervals: 8}\nobjective: none\n"
+                "constraints: {collision: {pairs: [[shank_l, thigh_l]]}}\n";
+  assert_true(fail_at_every_site(&of_warnings, load_warned, text, 2) > 50);
+}
+
 /* ------------------------------------------------------------------------ solutions */
 
 typedef struct start {
@@ -123,7 +149,7 @@ static void solutions(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(problems), cmocka_unit_test(texts),
+      cmocka_unit_test(problems), cmocka_unit_test(texts), cmocka_unit_test(a_warning),
       cmocka_unit_test_setup_teardown(solutions, scratch_open, scratch_close)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
