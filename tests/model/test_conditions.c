@@ -87,6 +87,24 @@ static void loads_add_up(void **state) {
   ambulo_model_free(whole);
 }
 
+/* every link can carry, the first one too */
+static void loads_on_every_link(void **state) {
+  (void)state;
+  ambulo_model *model = shipped();
+  for (int link = 0; link < ambulo_model_link_count(model); link++) {
+    ambulo_model *loaded = NULL;
+    ambulo_conditions c = ambulo_conditions_default();
+    c.load_link = link;
+    c.load_mass = 2.5;
+    assert_int_equal(ambulo_model_adapt(model, &c, NULL, NULL, &loaded), AMBULO_OK);
+    assert_close(ambulo_model_mass(loaded), ambulo_model_mass(model) + 2.5, 1e-13);
+    assert_close(ambulo_model_link(loaded, link)->mass, ambulo_model_link(model, link)->mass + 2.5,
+                 1e-13);
+    ambulo_model_free(loaded);
+  }
+  ambulo_model_free(model);
+}
+
 static void what_is_refused(void **state) {
   (void)state;
   ambulo_model *model = shipped(), *untouched = model;
@@ -204,6 +222,7 @@ int main(void) {
                                      cmocka_unit_test(what_is_carried_is_put_down),
                                      cmocka_unit_test(a_slope_turns_gravity),
                                      cmocka_unit_test(loads_add_up),
+                                     cmocka_unit_test(loads_on_every_link),
                                      cmocka_unit_test(what_is_refused),
                                      cmocka_unit_test(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("model/conditions", tests, NULL, NULL);

@@ -150,6 +150,7 @@ static void fits(void **state) {
   f.options.program = fit_program();
   each("ambulo_fit_load", load_fit, path);
   assert_int_equal(run_fit(NULL, &f), AMBULO_OK);
+  sites.step = 4;
   each("ambulo_fit_run", run_fit, &f);
   ambulo_fit_free(f.fit);
 }

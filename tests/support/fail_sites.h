@@ -23,6 +23,7 @@ typedef struct fail_sites {
   size_t seen[FAIL_SITES_TABLE]; /* hashes of chains; 0: free */
   long request[FAIL_SITES_MOST]; /* the first one of each new place */
   int count;
+  int step; /* of slow calls each step-th new place is tried; 0: each */
 } fail_sites;
 
 /* 0: this chain of callers is known */
@@ -66,7 +67,7 @@ static inline int fail_sites_find(fail_sites *sites, fail_sites_call call, void 
 static inline int fail_at_every_site(fail_sites *sites, fail_sites_call call, void *data,
                                      int ways) {
   int count = fail_sites_find(sites, call, data);
-  for (int i = 0; i < count; i++) {
+  for (int i = 0; i<count; i += sites->step> 1 ? sites->step : 1) {
     for (int alone = 0; alone < ways; alone++) {
       fail_alloc memory = fail_alloc_at(sites->request[i]);
       memory.only_once = alone;
