@@ -109,7 +109,9 @@ static void fronts(void **state) {
   s.options.program = fit_program();
   assert_int_equal(run_again(NULL, &s), AMBULO_OK);
   of_study(&s);
+  sites.step = 4; /* of slow calls some */
   each("ambulo_batch_page", write_page, &s);
+  sites.step = 0;
   ambulo_sweep_free(s.sweep);
 }
 
@@ -150,7 +152,7 @@ static void fits(void **state) {
   f.options.program = fit_program();
   each("ambulo_fit_load", load_fit, path);
   assert_int_equal(run_fit(NULL, &f), AMBULO_OK);
-  sites.step = 4;
+  sites.step = 8;
   each("ambulo_fit_run", run_fit, &f);
   ambulo_fit_free(f.fit);
 }
