@@ -5,6 +5,7 @@
 #ifndef AMBULO_STUDY_BATCH_H
 #define AMBULO_STUDY_BATCH_H
 
+#include "base/text_buffer.h"
 #include "formats/read_file.h"
 #include "study/study.h"
 
@@ -133,6 +134,12 @@ typedef struct ambulo__progress {
   unsigned long long origin; /* of one that is done: see ambulo__record */
 } ambulo__progress;
 
+/* What a worker says, as it comes. */
+typedef struct ambulo__worker_log {
+  int file; /* of a pipe; 0: closed */
+  ambulo__text_buffer text;
+} ambulo__worker_log;
+
 /* A worker process. */
 typedef struct ambulo__slot {
   pid_t process;             /* 0: free */
@@ -141,6 +148,7 @@ typedef struct ambulo__slot {
   unsigned long long origin; /* see ambulo__record */
   int cut;                   /* 1: killed by us for its time, 2: because the run stops */
   double begin;              /* s */
+  ambulo__worker_log log;
 } ambulo__slot;
 
 typedef struct ambulo__supervisor {
@@ -180,13 +188,24 @@ unsigned long long ambulo__queue_origin(const ambulo__supervisor *batch, int ind
 /* -------------------------------------------------------------- batch_worker.c */
 
 /* Starts `ambulo solve` of the slot's case in a process group of its own, so that Ctrl-C reaches
- * the supervisor alone; what it says goes to DIR/cases/<fan>/<id>.log. Errors: E_IO, E_MEMORY. */
+ * the supervisor alone. Errors: E_IO, E_MEMORY. */
 ambulo_status ambulo__worker_start(const ambulo__supervisor *batch, ambulo__slot *slot);
-/* Judges a worker that has ended, and records the case or has it tried again. */
-ambulo_status ambulo__worker_end(ambulo__supervisor *batch, const ambulo__slot *slot,
-                                 int wait_status);
+/* Judges a worker that has ended, and records the case or has it tried again. What it said is
+ * written to DIR/cases/<fan>/<id>.log; its first error ends the run when the disk was at fault. */
+ambulo_status ambulo__worker_end(ambulo__supervisor *batch, ambulo__slot *slot, int wait_status);
 /* Removes what killed workers left half-written in the folder of this path (formats/atomic_file.h):
  * entries "<name>.tmp-...", "<name>.old-..." whose names begin so. */
 void ambulo__clean_folder(const char *path, const char *begin);
+
+/* ---------------------------------------------------------------- worker_log.c */
+
+/* Opens the pipe, and returns the end for the worker, which the caller closes; -1 with errno. */
+int ambulo__worker_log_open(ambulo__worker_log *log, const ambulo_allocator *allocator);
+/* Takes in what has been said so far, 1 MB at most; 0, or -1 with errno. */
+int ambulo__worker_log_read(ambulo__worker_log *log);
+/* Writes it to a file; silence writes none. Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__worker_log_write(const ambulo__worker_log *log, const char *path,
+                                       ambulo_diagnostics *diagnostics);
+void ambulo__worker_log_close(ambulo__worker_log *log);
 
 #endif

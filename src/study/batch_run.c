@@ -199,6 +199,10 @@ static void reap(ambulo__supervisor *batch, ambulo__slot *slot, int stopping) {
   int wait_status = 0;
   pid_t process = waitpid(slot->process, &wait_status, WNOHANG);
   if (process == 0 || (process < 0 && errno == EINTR)) {
+    /* a full pipe would stop the worker */
+    if (ambulo__worker_log_read(&slot->log) && !batch->status)
+      batch->status =
+          ambulo__io_error(batch->diagnostics, batch->directory, "read what a worker says");
     if (batch->case_seconds > 0.0 && ambulo__seconds_now() - slot->begin > batch->case_seconds)
       kill_slot(slot, 1);
     return;
@@ -215,6 +219,7 @@ static void reap(ambulo__supervisor *batch, ambulo__slot *slot, int stopping) {
   } else {
     batch->of[ended.index].state = AMBULO__CASE_WAITING; /* somebody else waited for it */
   }
+  ambulo__worker_log_close(&ended.log);
   int follower = stopping || status || next >= 0 ? -1 : ambulo__queue_follower(batch, ended.index);
   if (follower >= 0) status = start(batch, slot, follower);
   if (status && !batch->status) batch->status = status;

@@ -38,7 +38,7 @@ enum { FIXED_ARGUMENTS = 10, FIXED_VARIABLES = 3 };
 
 typedef struct command {
   const ambulo_allocator *allocator;
-  char *result, *log, *start;
+  char *result, *start;
   const char **argument, **variable; /* both end with NULL */
   ambulo__text_buffer inputs;
   char limits[96];
@@ -46,7 +46,6 @@ typedef struct command {
 
 static void free_command(command *c) {
   ambulo__free(c->allocator, c->result);
-  ambulo__free(c->allocator, c->log);
   ambulo__free(c->allocator, c->start);
   ambulo__free(c->allocator, (void *)c->argument);
   ambulo__free(c->allocator, (void *)c->variable);
@@ -87,10 +86,9 @@ static int fill_command(command *c, const ambulo__supervisor *batch, int index, 
   const ambulo_allocator *a = c->allocator;
   const ambulo__sweep_case *all = batch->sweep->cases, *one = &all[index];
   c->result = ambulo__case_path(a, batch->directory, one->id, "");
-  c->log = ambulo__case_path(a, batch->directory, one->id, ".log");
   if (from >= 0) c->start = ambulo__case_path(a, batch->directory, all[from].id, "/solution.yaml");
   c->argument = ambulo__alloc(a, FIXED_ARGUMENTS + 2 * (size_t)one->overrides, sizeof *c->argument);
-  if (!c->result || !c->log || !c->argument || (from >= 0 && !c->start)) return 0;
+  if (!c->result || !c->argument || (from >= 0 && !c->start)) return 0;
   const char *fixed[] = {"ambulo", "solve", "--force", "--quiet", "-o", c->result};
   size_t count = sizeof fixed / sizeof *fixed;
   memcpy(c->argument, fixed, sizeof fixed);
@@ -106,8 +104,8 @@ static int fill_command(command *c, const ambulo__supervisor *batch, int index, 
   return fill_environment(c, batch, index);
 }
 
-static int prepare(posix_spawn_file_actions_t *files, posix_spawnattr_t *attributes,
-                   const char *log) {
+/* messages: a pipe */
+static int prepare(posix_spawn_file_actions_t *files, posix_spawnattr_t *attributes, int messages) {
   sigset_t none, usual;
   sigemptyset(&none);
   sigemptyset(&usual);
@@ -115,8 +113,7 @@ static int prepare(posix_spawn_file_actions_t *files, posix_spawnattr_t *attribu
   sigaddset(&usual, SIGTERM);
   int fault = posix_spawn_file_actions_addopen(files, 0, "/dev/null", O_RDONLY, 0);
   if (!fault) fault = posix_spawn_file_actions_addopen(files, 1, "/dev/null", O_WRONLY, 0);
-  if (!fault)
-    fault = posix_spawn_file_actions_addopen(files, 2, log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (!fault) fault = posix_spawn_file_actions_adddup2(files, messages, 2);
   if (!fault) fault = posix_spawnattr_setpgroup(attributes, 0);
   if (!fault) fault = posix_spawnattr_setsigmask(attributes, &none);
   if (!fault) fault = posix_spawnattr_setsigdefault(attributes, &usual);
@@ -126,14 +123,14 @@ static int prepare(posix_spawn_file_actions_t *files, posix_spawnattr_t *attribu
   return fault;
 }
 
-static int spawn(const command *c, const char *program, pid_t *process) {
+static int spawn(const command *c, const char *program, int messages, pid_t *process) {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
   int fault = posix_spawn_file_actions_init(&files);
   if (fault) return fault;
   fault = posix_spawnattr_init(&attributes);
   if (!fault) {
-    fault = prepare(&files, &attributes, c->log);
+    fault = prepare(&files, &attributes, messages);
     /* posix_spawn takes char *const[] and changes nothing in it */
     if (!fault)
       fault = posix_spawn(process, program, &files, &attributes, (char *const *)c->argument,
@@ -186,14 +183,17 @@ static void clean_case(const ambulo__supervisor *batch, const char *id) {
   ambulo__free(batch->allocator, fan);
 }
 
-/* the folder for the result, without one that is damaged or of other inputs */
+/* the folder for the result, without one that is damaged or of other inputs, and its messages */
 static ambulo_status make_place(const ambulo__supervisor *batch, const char *id) {
   const ambulo_allocator *a = batch->allocator;
   char *fan = fan_of(batch, id), *result = ambulo__case_path(a, batch->directory, id, "");
-  ambulo_status status = fan && result ? AMBULO_OK : AMBULO_E_MEMORY;
+  char *log = ambulo__case_path(a, batch->directory, id, ".log");
+  ambulo_status status = fan && result && log ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status && mkdir(fan, 0777) != 0 && errno != EEXIST)
     status = ambulo__io_error(batch->diagnostics, fan, "create the folder");
   if (!status) remove_flat(AT_FDCWD, result);
+  if (!status) (void)unlink(log);
+  ambulo__free(a, log);
   ambulo__free(a, fan);
   ambulo__free(a, result);
   return status;
@@ -205,10 +205,15 @@ ambulo_status ambulo__worker_start(const ambulo__supervisor *batch, ambulo__slot
   const char *program = batch->options.program;
   ambulo_status status = make_place(batch, batch->sweep->cases[slot->index].id);
   if (!status && !fill_command(&c, batch, slot->index, slot->from)) status = AMBULO_E_MEMORY;
+  int messages = status ? -1 : ambulo__worker_log_open(&slot->log, batch->allocator);
   if (!status) {
-    errno = spawn(&c, program ? program : "/proc/self/exe", &slot->process);
-    if (errno) status = ambulo__io_error(batch->diagnostics, c.log, "start a worker that writes");
+    if (messages >= 0)
+      errno = spawn(&c, program ? program : "/proc/self/exe", messages, &slot->process);
+    if (messages < 0 || errno)
+      status = ambulo__io_error(batch->diagnostics, c.result, "start a worker that writes");
   }
+  if (messages >= 0) (void)close(messages);
+  if (status) ambulo__worker_log_close(&slot->log);
   free_command(&c);
   slot->begin = ambulo__seconds_now();
   return status;
@@ -216,40 +221,32 @@ ambulo_status ambulo__worker_start(const ambulo__supervisor *batch, ambulo__slot
 
 /* ------------------------------------------------------------------- the end */
 
-enum { MOST_ATTEMPTS = 20, MOST_LOG_BYTES = 1 << 20, NOT_STARTED = 127, SIGNAL_BASE = 128 };
+enum { MOST_ATTEMPTS = 20, NOT_STARTED = 127, SIGNAL_BASE = 128 };
 
 static int from_outside(int number) {
   return number == SIGKILL || number == SIGTERM || number == SIGINT || number == SIGHUP ||
          number == SIGQUIT;
 }
 
-/* the first error of the worker's log, with its file, in the message */
-static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id) {
+/* the first error of what the worker said, with its file, in the message */
+static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id, const char *text) {
   if (batch->status) return batch->status; /* said once */
-  char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log"), *text = NULL;
-  size_t length = 0;
-  if (path && ambulo__read_file(path, MOST_LOG_BYTES, batch->allocator, NULL, &text, &length))
-    text = NULL;
-  const char *error = text ? strstr(text, "error[") : NULL, *file = text, *said = "";
+  const char *error = strstr(text, "error["), *file = text, *said = "";
   if (error && strstr(error, "]: ")) said = strstr(error, "]: ") + 3;
   for (const char *line = text; error && line && line < error; line = strchr(line, '\n')) {
     line += *line == '\n';
     file = line;
   }
   int named = said[0] ? (int)(error - file) : 0;
-  if (!said[0]) said = text && text[0] ? text : "its log says nothing";
+  if (!said[0]) said = text[0] ? text : "its worker ended without a word";
   ambulo__place place = {batch->directory, 0, 0, NULL};
-  ambulo_status status =
-      ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
-                    "what is finished is kept; run the same command again", "case %s: %.*s%.*s", id,
-                    named, file, (int)strcspn(said, "\n"), said);
-  ambulo__free(batch->allocator, text);
-  ambulo__free(batch->allocator, path);
-  return status;
+  return ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
+                       "what is finished is kept; run the same command again", "case %s: %.*s%.*s",
+                       id, named, file, (int)strcspn(said, "\n"), said);
 }
 
 /* what is to become of the case */
-typedef enum judgement { RECORDED, AGAIN, DISK } judgement;
+typedef enum judgement { RECORDED, AGAIN } judgement;
 
 /* it ended without a result: what stands there of one does not count, its log does */
 static judgement without_result(ambulo__record *record, const char *state) {
@@ -267,7 +264,6 @@ static judgement without_result(ambulo__record *record, const char *state) {
 /* a worker that exited; `taken`: it left a result */
 static judgement judge_exit(int code, int taken, ambulo__record *record) {
   record->exit_code = code;
-  if (code == 4 || code == NOT_STARTED) return DISK;
   if (code > SIGNAL_BASE && from_outside(code - SIGNAL_BASE)) return AGAIN;
   if (code <= 1 && taken) return RECORDED;
   if (code == 0) return AGAIN;
@@ -284,14 +280,15 @@ static judgement judge(const ambulo__slot *slot, int wait_status, int taken,
   return from_outside(record->signal) ? AGAIN : without_result(record, "crashed");
 }
 
-/* an empty log says nothing; one of a case that was solved is kept when it has warnings */
-static ambulo_status drop_empty_log(const ambulo__supervisor *batch, const char *id) {
-  struct stat entry;
+/* the log of a case that was solved is kept when it has warnings */
+static ambulo_status write_log(const ambulo__supervisor *batch, const ambulo__slot *slot,
+                               ambulo_diagnostics *diagnostics) {
+  const char *id = batch->sweep->cases[slot->index].id;
   char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log");
   if (!path) return AMBULO_E_MEMORY;
-  if (stat(path, &entry) == 0 && entry.st_size == 0) (void)unlink(path);
+  ambulo_status status = ambulo__worker_log_write(&slot->log, path, diagnostics);
   ambulo__free(batch->allocator, path);
-  return AMBULO_OK;
+  return status;
 }
 
 static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__record *record) {
@@ -320,12 +317,10 @@ static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__re
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__worker_end(ambulo__supervisor *batch, const ambulo__slot *slot,
-                                 int wait_status) {
-  const ambulo__sweep_case *one = &batch->sweep->cases[slot->index];
+static ambulo__record new_record(const ambulo__supervisor *batch, const ambulo__slot *slot) {
   ambulo__record record;
   memset(&record, 0, sizeof record);
-  record.key = one->key;
+  record.key = batch->sweep->cases[slot->index].key;
   record.exit_code = -1;
   record.violation = -1.0;
   record.origin = slot->origin;
@@ -334,23 +329,37 @@ ambulo_status ambulo__worker_end(ambulo__supervisor *batch, const ambulo__slot *
   record.seconds = ambulo__seconds_now() - slot->begin;
   record.limit_seconds = batch->case_seconds;
   record.limit_megabytes = batch->case_megabytes;
-  int taken = 0;
+  return record;
+}
+
+static void give_up(ambulo__supervisor *batch, int index) {
+  batch->of[index].state = AMBULO__CASE_GIVEN_UP;
+  ambulo__place place = {batch->directory, 0, 0, NULL};
+  ambulo__warning(batch->diagnostics, place, "is the machine out of memory?",
+                  "case %s was killed from outside %d times; left out of this run",
+                  batch->sweep->cases[index].id, MOST_ATTEMPTS);
+}
+
+ambulo_status ambulo__worker_end(ambulo__supervisor *batch, ambulo__slot *slot, int wait_status) {
+  const char *id = batch->sweep->cases[slot->index].id;
+  ambulo__record record = new_record(batch, slot);
+  int taken = 0, code = WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : -1;
   batch->of[slot->index].state = AMBULO__CASE_WAITING;
-  if (!(WIFEXITED(wait_status) && WEXITSTATUS(wait_status) <= 3)) clean_case(batch, one->id);
-  ambulo_status status = drop_empty_log(batch, one->id);
-  if (!status)
-    status = ambulo__record_take_result(batch->directory, one->id, batch->allocator,
-                                        batch->diagnostics, &record, &taken);
-  if (status) return status;
-  judgement judged = judge(slot, wait_status, taken, &record);
-  if (judged == RECORDED) return keep(batch, slot->index, &record);
-  if (judged == DISK) return disk_trouble(batch, one->id);
-  if (slot->cut == 0 && ++batch->of[slot->index].attempts == MOST_ATTEMPTS) {
-    batch->of[slot->index].state = AMBULO__CASE_GIVEN_UP;
-    ambulo__place place = {batch->directory, 0, 0, NULL};
-    ambulo__warning(batch->diagnostics, place, "is the machine out of memory?",
-                    "case %s was killed from outside %d times; left out of this run", one->id,
-                    MOST_ATTEMPTS);
+  if (code < 0 || code > 3) clean_case(batch, id);
+  if (ambulo__worker_log_read(&slot->log))
+    return ambulo__io_error(batch->diagnostics, batch->directory, "read what a worker says");
+  if (code == 4 || code == NOT_STARTED) {
+    (void)write_log(batch, slot, NULL); /* where the disk takes it */
+    return disk_trouble(batch, id, ambulo__text_data(&slot->log.text));
   }
+  ambulo_status status = write_log(batch, slot, batch->diagnostics);
+  if (!status)
+    status = ambulo__record_take_result(batch->directory, id, batch->allocator, batch->diagnostics,
+                                        &record, &taken);
+  if (status) return status;
+  if (judge(slot, wait_status, taken, &record) == RECORDED)
+    return keep(batch, slot->index, &record);
+  if (slot->cut == 0 && ++batch->of[slot->index].attempts == MOST_ATTEMPTS)
+    give_up(batch, slot->index);
   return AMBULO_OK;
 }
