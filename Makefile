@@ -283,6 +283,12 @@ $(OUT)/tests/%: $(OUT)/obj/tests/%.o $(ARCHIVE)
 	@mkdir -p $(@D)
 	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(ARCHIVE) $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
+# calls that fail under every command: a library in front of that of C
+$(OUT)/tests/faults/test_commands: $(OUT)/tests/faults/preload.so
+$(OUT)/tests/faults/preload.so: $(OUT)/obj/tests/faults/preload.o
+	@mkdir -p $(@D)
+	$(call quiet,LD $@)$(CC) -shared $< -ldl -o $@
+
 $(OUT)/bench/%: $(OUT)/obj/bench/%.o $(ARCHIVE)
 	@mkdir -p $(@D)
 	$(call quiet,LD $@)$(CC) $(MODE) $< $(ARCHIVE) $(LDFLAGS) $(LIBS) -o $@

@@ -111,7 +111,8 @@ ambulo_status ambulo__record_take_result(const char *directory, const char *id,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics, ambulo__record *record,
                                          int *taken);
-/* Whether it ran out of time or memory, and may have more now (0: no limit). */
+/* Whether it ran out of time or memory, and may have more now (0: no limit); or of memory without a
+ * limit, which another run may find. */
 int ambulo__record_was_cut(const ambulo__record *record, double seconds, int megabytes);
 
 /* ----------------------------------------------------------------- batch_run.c */

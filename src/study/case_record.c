@@ -362,7 +362,8 @@ ambulo_status ambulo__record_take_result(const char *directory, const char *id,
 
 int ambulo__record_was_cut(const ambulo__record *r, double seconds, int megabytes) {
   if (strcmp(r->state, "timeout") == 0) return seconds == 0.0 || seconds > r->limit_seconds;
-  if (strcmp(r->state, "memory") == 0 && r->limit_megabytes > 0)
-    return megabytes == 0 || megabytes > r->limit_megabytes;
+  /* without a limit of its own it was the machine that had none left */
+  if (strcmp(r->state, "memory") == 0)
+    return r->limit_megabytes == 0 || megabytes == 0 || megabytes > r->limit_megabytes;
   return 0;
 }

@@ -248,6 +248,14 @@ static void wider_limits_reopen_a_case(void **state) {
   assert_true(ambulo__record_was_cut(&r, 0.0, 0));
   snprintf(r.state, sizeof r.state, "optimal");
   assert_false(ambulo__record_was_cut(&r, 0.0, 0));
+  snprintf(r.state, sizeof r.state, "memory");
+  r.limit_megabytes = 300;
+  assert_false(ambulo__record_was_cut(&r, 0.0, 300));
+  assert_true(ambulo__record_was_cut(&r, 0.0, 301));
+  assert_true(ambulo__record_was_cut(&r, 0.0, 0));
+  r.limit_megabytes = 0; /* the machine had none left: not the case's own end */
+  assert_true(ambulo__record_was_cut(&r, 0.0, 0));
+  assert_true(ambulo__record_was_cut(&r, 0.0, 300));
 }
 
 static void equal_and_free(char *path, const char *expected) {
