@@ -150,7 +150,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h include/ambulo/tools/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check check-long run-long way engine test-engine sanitize-engine run-engine-tests tests test-objects run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize fuzz check-threads run-threads valgrind check-kill check-slurm check-page check-python truth setup-truth check-judge wheel viewer coverage mutate \
+  sanitize fuzz check-threads run-threads valgrind check-kill check-faults check-slurm check-page check-python truth setup-truth check-judge wheel viewer coverage mutate \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-hardening lint-abi lint-callers lint-mirror \
   lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-architecture lint-words lint-leftovers format \
@@ -165,7 +165,8 @@ help:
 	@echo 'make demo         install what is missing, build, solve models/walk.yaml'
 	@echo 'make check        install what is missing, build, run all tests'
 	@echo 'make check-long   what takes longer: every page, packages, users'\'' ways, Python, the report in a browser'
-	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
+	@echo 'make check-kill   five hundred random kills of a batch, then the same table'
+	@echo 'make check-faults  calls that fail under each command, one after another (EVERY=100000: all)'
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
 	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
 	@echo 'make viewer       that page from its sources in src/show/viewer (npm)'
@@ -337,13 +338,19 @@ run-tests:
 
 check-long: build/.ready-test
 	$(submake) run-long
-run-long: all $(LONG_TESTS)
+run-long: all $(LONG_TESTS) $(OUT)/tests/faults/test_commands
 	@JOBS=$(JOBS) OUT=$(OUT) CC='$(CC)' CFLAGS='$(CFLAGS)' CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' \
-	  MODE='$(MODE)' AMBULO_LONG=1 tests/support/all.sh $(LONG_SCRIPTS) $(LONG_TESTS)
+	  MODE='$(MODE)' AMBULO_LONG=1 AMBULO_FAULTS_EVERY=$(EVERY) tests/support/all.sh $(LONG_SCRIPTS) $(LONG_TESTS) $(OUT)/tests/faults/test_commands
 
 check-kill: build/.ready-build
 	$(submake) all
-	@AMBULO=$(OUT)/ambulo KILLS=200 SWEEP=models/sweep_walk.yaml tests/study/kill_test.sh
+	@AMBULO=$(OUT)/ambulo KILLS=500 SWEEP=models/sweep_walk.yaml tests/study/kill_test.sh
+
+# calls that fail under each command, every one up to the EVERY-th of a kind, then at growing distances
+EVERY ?= 40
+check-faults: build/.ready-test
+	$(submake) all $(OUT)/tests/faults/test_commands
+	@AMBULO='$(CURDIR)/$(OUT)/ambulo' AMBULO_FAULTS_EVERY=$(EVERY) OPENBLAS_NUM_THREADS=1 $(OUT)/tests/faults/test_commands
 
 check-slurm: build/.ready-build
 	$(submake) all

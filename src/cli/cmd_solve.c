@@ -101,7 +101,8 @@ static int read_options(job *j) {
   if (wrong) return wrong;
   j->directory = directory ? strdup(directory) : default_directory(input->arguments[0]);
   j->diagnostics = ambulo_diagnostics_create(NULL);
-  if (!j->directory || !j->diagnostics) return ambulo_status_exit_code(AMBULO_E_MEMORY);
+  if (!j->directory || !j->diagnostics)
+    return ambulo__cli_diagnostics(NULL, AMBULO_E_MEMORY, input->arguments[0]);
   j->terminal = isatty(STDERR_FILENO) && !ambulo__cli_flag(input, "quiet");
   return 0;
 }

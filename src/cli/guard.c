@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "ambulo/status.h"
+#include "cli/output.h"
 
 /* the file that the command would write over, and what it is; NULL: none */
 static const char *find_output(const ambulo__cli_input *input, struct stat *there) {
@@ -50,7 +50,7 @@ int ambulo__cli_guard_files(const ambulo__cli_input *input, const char *files) {
   while (output && !code && strlen(files) > BEFORE) {
     size_t length = strcspn(files + BEFORE, "\n");
     char *path = malloc(length + 1);
-    if (!path) return ambulo_status_exit_code(AMBULO_E_MEMORY);
+    if (!path) return ambulo__cli_diagnostics(NULL, AMBULO_E_MEMORY, output);
     memcpy(path, files + BEFORE, length);
     path[length] = '\0';
     code = refuse(output, &there, path);

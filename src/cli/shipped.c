@@ -223,7 +223,7 @@ static ambulo__cli_entry *grow(ambulo__cli_entry *list, int count) {
 
 static int read_folder(DIR *folder, ambulo__cli_entry **entries) {
   int count = 0, one = 0;
-  for (struct dirent *e = readdir(folder); e && one >= 0; e = readdir(folder)) {
+  for (const struct dirent *e; one >= 0 && (errno = 0, e = readdir(folder)) != NULL;) {
     ambulo__cli_entry *more = grow(*entries, count);
     if (!more) {
       ambulo__cli_error("E_MEMORY", NULL, "not enough memory for the list of shipped files");
@@ -232,6 +232,11 @@ static int read_folder(DIR *folder, ambulo__cli_entry **entries) {
     *entries = more;
     one = describe(e->d_name, &more[count]);
     count += one > 0;
+  }
+  if (one >= 0 && errno) {
+    ambulo__cli_error("E_IO", NULL, "the folder of the shipped models cannot be read: %s",
+                      strerror(errno));
+    return -1;
   }
   return one < 0 ? -1 : count;
 }

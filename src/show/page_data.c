@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* 1 if the line ends of JavaScript stand at `at`; their last byte is 0xa8 or 0xa9 */
 static int is_line_end(const char *at, const char *end) {
@@ -231,20 +232,23 @@ void ambulo__page_result_free(ambulo__page_result *result) {
   ambulo__page_file_free(&result->scene);
 }
 
-/* the picture, which is left out where it cannot be read */
-static ambulo_status strip(const char *directory, ambulo__text_buffer *out) {
+/* the picture, where there is one */
+static ambulo_status strip(const char *directory, ambulo__text_buffer *out,
+                           ambulo_diagnostics *diagnostics) {
   const ambulo_allocator *a = &out->allocator;
   char *path = ambulo__join_paths(a, directory, "gait.svg", NULL), *text = NULL;
   size_t length;
   ambulo_status status = path ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status) status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, a, NULL, &text, &length);
-  if (!status) {
+  int there = path && (access(path, F_OK) == 0 || errno != ENOENT);
+  if (there)
+    status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, a, diagnostics, &text, &length);
+  if (there && !status) {
     ambulo__text_append(out, ",\"strip\":");
     ambulo__script_text(out, text);
   }
   ambulo__free(a, text);
   ambulo__free(a, path);
-  return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
+  return status;
 }
 
 /* the last part of a path; "." and ".." say nothing: the whole of it */
@@ -272,7 +276,7 @@ ambulo_status ambulo__page_add_result(const char *directory, int with_strip,
   ambulo__script_json(&data, r.summary.text, r.summary.length);
   ambulo__text_append(&data, ",\"scene\":");
   ambulo__script_json(&data, r.scene.text, r.scene.length);
-  if (with_strip) status = strip(directory, &data);
+  if (with_strip) status = strip(directory, &data, diagnostics);
   ambulo__text_append_char(&data, '}');
   ambulo__text_append(out, "{\"name\":");
   folder_name(directory, out);

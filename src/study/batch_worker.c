@@ -238,7 +238,7 @@ static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id, con
     file = line;
   }
   int named = said[0] ? (int)(error - file) : 0;
-  if (!said[0]) said = text[0] ? text : "its worker ended without a word";
+  if (!said[0]) said = text[0] ? text : "its worker ended without a message";
   ambulo__place place = {batch->directory, 0, 0, NULL};
   return ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
                        "what is finished is kept; run the same command again", "case %s: %.*s%.*s",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A few random kills and a full disk on every check; `make check-kill` deals two hundred.
+# A few random kills and a full disk on every check; `make check-kill` deals five hundred.
 here=$(cd "$(dirname "$0")" && pwd)
 passed=0 failed=0
 count() { if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi; }

@@ -188,15 +188,29 @@ static int is_same(const struct stat *a, const struct stat *b) {
   return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
-/* of an input that is a folder: one of its files */
+/* of an input that is a folder: one of its files; -1 with errno: it cannot be known */
 static int is_in_folder(const struct stat *there, const char *folder) {
   int found = 0;
   DIR *stream = opendir(folder);
   struct stat entry;
-  for (const struct dirent *e; stream && !found && (e = readdir(stream)) != NULL;)
-    found = fstatat(dirfd(stream), e->d_name, &entry, 0) == 0 && is_same(&entry, there);
-  if (stream) (void)closedir(stream);
-  return found;
+  if (!stream) return -1;
+  for (const struct dirent *e; !found && (errno = 0, e = readdir(stream)) != NULL;) {
+    if (fstatat(dirfd(stream), e->d_name, &entry, 0) == 0)
+      found = is_same(&entry, there);
+    else if (errno != ENOENT && errno != ELOOP)
+      found = -1;
+    if (found) break;
+  }
+  int reason = errno;
+  (void)closedir(stream);
+  errno = reason;
+  return !found && reason ? -1 : found;
+}
+
+/* 1: a file is there; 0: none; -1 with errno: it cannot be known */
+static int look(const char *path, struct stat *entry) {
+  if (stat(path, entry) == 0) return 1;
+  return errno == ENOENT || errno == ENOTDIR ? 0 : -1;
 }
 
 ambulo_status ambulo__output_check(const char *output, const char *const *inputs, int count,
@@ -204,10 +218,14 @@ ambulo_status ambulo__output_check(const char *output, const char *const *inputs
   ambulo__place place = {.file = output};
   struct stat there, input;
   static const char hint[] = "give another name, or --force (in C: overwrite)";
-  if (force || stat(output, &there) != 0 || !S_ISREG(there.st_mode)) return AMBULO_OK;
+  int found = force ? 0 : look(output, &there);
+  if (found < 0) return ambulo__io_error(diagnostics, output, "inspect");
+  if (!found || !S_ISREG(there.st_mode)) return AMBULO_OK;
   for (int i = 0; i < count; i++) {
-    if (!inputs[i] || stat(inputs[i], &input) != 0) continue;
-    int within = S_ISDIR(input.st_mode) && is_in_folder(&there, inputs[i]);
+    found = inputs[i] ? look(inputs[i], &input) : 0;
+    if (!found) continue;
+    int within = found > 0 && S_ISDIR(input.st_mode) ? is_in_folder(&there, inputs[i]) : 0;
+    if (found < 0 || within < 0) return ambulo__io_error(diagnostics, inputs[i], "inspect");
     if (!within && !is_same(&input, &there)) continue;
     return ambulo__error(
         diagnostics, AMBULO_E_IO, place, hint, "the output is %s '%s'%s; it is not written over",

@@ -60,11 +60,12 @@ static int folder_is_empty(const char *path) {
   DIR *stream = opendir(path);
   if (!stream) return -1;
   int empty = 1;
-  for (struct dirent *entry = readdir(stream); entry && empty; entry = readdir(stream)) {
-    empty = is_dot(entry->d_name);
-  }
+  for (const struct dirent *e; empty && (errno = 0, e = readdir(stream)) != NULL;)
+    empty = is_dot(e->d_name);
+  int reason = errno;
   closedir(stream);
-  return empty;
+  errno = reason;
+  return empty && reason ? -1 : empty;
 }
 
 static ambulo_status expect_mark(const ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
@@ -90,7 +91,7 @@ static ambulo_status expect_nothing_else(const ambulo__folder *folder,
   ambulo_status status = AMBULO_OK;
   DIR *stream = opendir(folder->path);
   if (!stream) return ambulo__io_error(diagnostics, folder->path, "read the folder");
-  for (struct dirent *entry = readdir(stream); entry && !status; entry = readdir(stream)) {
+  for (const struct dirent *entry; !status && (errno = 0, entry = readdir(stream)) != NULL;) {
     int known = is_dot(entry->d_name);
     for (int i = 0; i < mark->count && !known; i++)
       known = strcmp(entry->d_name, mark->names[i]) == 0;
@@ -100,6 +101,7 @@ static ambulo_status expect_nothing_else(const ambulo__folder *folder,
                            "be lost; it is not replaced",
                            entry->d_name);
   }
+  if (!status && errno) status = ambulo__io_error(diagnostics, folder->path, "read the folder");
   closedir(stream);
   return status;
 }
