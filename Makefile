@@ -284,11 +284,13 @@ $(OUT)/tests/%: $(OUT)/obj/tests/%.o $(ARCHIVE)
 	@mkdir -p $(@D)
 	$(call quiet,LD $@)$(CC) $(MODE) $(TEST_LINK) $< $(ARCHIVE) $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
-# calls that fail under every command: a library in front of that of C
+# calls that fail under every command: a library in front of that of C, which no variant instruments
+ifeq ($(shell uname -s),Linux)
 $(OUT)/tests/faults/test_commands: $(OUT)/tests/faults/preload.so
-$(OUT)/tests/faults/preload.so: $(OUT)/obj/tests/faults/preload.o
+endif
+$(OUT)/tests/faults/preload.so: tests/faults/preload.c tests/faults/faults.h
 	@mkdir -p $(@D)
-	$(call quiet,LD $@)$(CC) -shared $< -ldl -o $@
+	$(call quiet,LD $@)$(CC) $(ALL_CPPFLAGS) -Itests -std=c11 $(WARNINGS) -O1 -fPIC -shared $< -ldl -o $@
 
 $(OUT)/bench/%: $(OUT)/obj/bench/%.o $(ARCHIVE)
 	@mkdir -p $(@D)
