@@ -1,8 +1,10 @@
-/* Solves while malloc itself runs out, in NLopt too: E_MEMORY with a message, and never a crash.
+/* Solves while malloc itself runs out, in NLopt too: E_MEMORY with a message, or the point that is
+ * found with all memory; never a crash.
  *
  * This program brings its own malloc, which keeps the bytes in use within a budget once it is
  * armed: what has been freed can be had again, as from the system's. NLopt 2.7.1's nlopt_copy does
- * not look at what malloc returns; ambulo__nlopt_can_copy keeps it from being called in vain. */
+ * not look at what malloc returns, and its L-BFGS goes on without its steps: ambulo__nlopt_can_copy
+ * and ambulo__nlopt_can_descend keep them from being called in vain. */
 #include "method/mirror.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"
@@ -87,10 +89,19 @@ static long long disarm(void) {
 
 /* ------------------------------------------------------------------------ solves */
 
+/* a point found goes to `x` where that is empty, and is compared with it where it is not */
 static ambulo_status solve(const ambulo_problem *problem, const ambulo_options *options,
-                           ambulo_diagnostics *list) {
+                           ambulo_diagnostics *list, double **x) {
   ambulo_result *result = NULL;
   ambulo_status status = ambulo_solve(problem, options, NULL, NULL, list, &result);
+  armed = 0;
+  size_t size = (size_t)ambulo_problem_variable_count(problem) * sizeof **x;
+  if (status == AMBULO_OK && !*x) {
+    *x = malloc(size);
+    assert_non_null(*x);
+    memcpy(*x, ambulo_result_x(result), size);
+  }
+  if (status == AMBULO_OK) assert_memory_equal(*x, ambulo_result_x(result), size);
   ambulo_result_free(result);
   return status;
 }
@@ -103,13 +114,13 @@ static void starve(const char *name, ambulo_algorithm algorithm, int intervals) 
   ambulo_options options = ambulo_problem_options(problem);
   options.algorithm = algorithm;
   options.maximum_iterations = 2;
-  assert_int_equal(solve(problem, &options, NULL), AMBULO_OK);
+  double *x = NULL;
+  assert_int_equal(solve(problem, &options, NULL, &x), AMBULO_OK);
   int failures = 0, enough = 0;
   for (long long bytes = 1000; !enough; bytes += bytes / 60 + 200) {
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     arm(bytes);
-    ambulo_status status = solve(problem, &options, list);
-    (void)disarm();
+    ambulo_status status = solve(problem, &options, list, &x);
     if (status == AMBULO_OK && !refused) enough = 1;
     if (status == AMBULO_E_MEMORY) {
       failures++;
@@ -126,6 +137,7 @@ static void starve(const char *name, ambulo_algorithm algorithm, int intervals) 
     ambulo_diagnostics_free(list);
   }
   assert_true(failures > 50);
+  free(x);
   ambulo_problem_free(problem);
 }
 
@@ -139,6 +151,42 @@ static void small_problems_run_out_of_memory(void **state) {
   starve("support/two_link_reach", AMBULO_AUTO, 20);
   starve("support/two_link_reach", AMBULO_SLSQP, 20);
   starve("support/two_link_reach", AMBULO_AUGLAG, 20);
+}
+
+typedef struct famine {
+  int from, to; /* iterations */
+  long long bytes;
+} famine;
+
+static int starve_between(void *user, const ambulo_progress *progress) {
+  const famine *f = user;
+  if (progress->iteration == f->from) arm(f->bytes);
+  if (progress->iteration == f->to) armed = 0;
+  return 0;
+}
+
+/* L-BFGS without room for its steps would find another point */
+static void a_short_famine_ends_a_solve_or_changes_nothing(void **state) {
+  (void)state;
+  famine f = {-1, -1, 0};
+  ambulo_problem *problem = load_problem_with("support/two_link_reach", "time.intervals=20");
+  ambulo_options options = ambulo_problem_options(problem);
+  options.algorithm = AMBULO_AUGLAG;
+  options.maximum_iterations = 8;
+  options.progress = starve_between;
+  options.user = &f;
+  double *x = NULL;
+  int seen[2] = {0, 0};
+  assert_int_equal(solve(problem, &options, NULL, &x), AMBULO_OK);
+  f.from = 2, f.to = 4;
+  for (f.bytes = 0; f.bytes < 60000; f.bytes += 500) {
+    ambulo_status status = solve(problem, &options, NULL, &x);
+    assert_true(status == AMBULO_OK || status == AMBULO_E_MEMORY);
+    seen[status == AMBULO_OK]++;
+  }
+  assert_true(seen[0] > 10 && seen[1] > 10);
+  free(x);
+  ambulo_problem_free(problem);
 }
 
 /* whatever passes the question can be copied, and what is asked for is little more */
@@ -174,6 +222,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
 #if OWN_MALLOC
     cmocka_unit_test(what_is_promised_is_there),
+    cmocka_unit_test(a_short_famine_ends_a_solve_or_changes_nothing),
     cmocka_unit_test(small_problems_run_out_of_memory),
     cmocka_unit_test(the_pipeline_runs_out_of_memory),
 #endif

@@ -78,6 +78,7 @@ struct drive {
   int trials;       /* with gradient, since the chart was laid */
   int started, lay; /* NLopt knows rho; the chart is to be laid at NLopt's next point */
   int anew;         /* the call is to be repeated with own gradients */
+  int starved;      /* no memory for the next inner solve */
   ambulo_ending ending;
   double seconds; /* spent in callbacks */
 };
@@ -232,7 +233,8 @@ static double between(drive *s, unsigned n, const double *w) {
   } else {
     inner_ended(s, merit);
   }
-  return value;
+  s->starved = !is_over(s) && !ambulo__nlopt_can_descend(n, AMBULO__INNER_EVALUATIONS);
+  return s->starved ? give_up(s, n, NULL) : value;
 }
 
 static double objective(unsigned n, const double *w, double *gradient, void *data) {
@@ -283,16 +285,16 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
 
 static int set_up(drive *s, nlopt_opt outer, nlopt_opt local) {
   static const double tolerance[BLOCK] = {0.0}; /* pipeline.h has its own */
+  unsigned n = (unsigned)s->engine->setup->n;
   int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
                nlopt_set_vector_storage(local, AMBULO__INNER_EVALUATIONS) < 0 ||
-               !ambulo__nlopt_can_copy((unsigned)s->engine->setup->n) ||
-               nlopt_set_local_optimizer(outer, local) < 0 ||
+               !ambulo__nlopt_can_copy(n) || nlopt_set_local_optimizer(outer, local) < 0 ||
                nlopt_set_min_objective(outer, objective, s) < 0;
   for (int i = 0; i < s->block_count && !failed; i++)
     failed = nlopt_add_inequality_mconstraint(outer, (unsigned)s->blocks[i].count, rows,
                                               &s->blocks[i], tolerance) < 0;
-  return failed;
+  return failed || !ambulo__nlopt_can_descend(n, AMBULO__INNER_EVALUATIONS);
 }
 
 /* NLopt from w = 0; its result */
@@ -377,7 +379,7 @@ static ambulo_status run(drive *s) {
     s->ending = prepare(s);
     if (s->ending) break;
     int result = call(s);
-    if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
+    if (result == NLOPT_OUT_OF_MEMORY || s->starved) return AMBULO_E_MEMORY;
     if (is_over(s) || (result >= 0 && s->mirror.measure == 0.0)) continue;
     /* by a test of its own only if the mirror agrees; else the mirror is wrong */
     if (result >= 0 || r->nlopt.outer == before) s->ending = AMBULO_ENDING_NLOPT;

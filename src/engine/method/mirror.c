@@ -86,17 +86,25 @@ int ambulo__mirror_agrees(unsigned n, const double *from, const double *to,
 
 /* glibc keeps freed blocks of up to 1032 bytes for requests of their own size class; larger ones
  * are cut up for whatever comes next. So every block asked for here is larger than that. */
-enum { BLOCKS = 4 };
+enum { MOST_BLOCKS = 4 };
 static const size_t smallest = 4096; /* bytes: more than NLopt's options, and than is cached */
 
-int ambulo__nlopt_can_copy(unsigned n) {
-  void *block[BLOCKS];
+static int can_take(int count, const size_t *doubles) {
+  void *block[MOST_BLOCKS];
   int all = 1;
-  for (int i = 0; i < BLOCKS; i++) {
-    size_t size = (size_t)n * sizeof(double) + smallest;
-    block[i] = malloc(i == 0 ? smallest : size);
+  for (int i = 0; i < count; i++) {
+    block[i] = malloc(doubles[i] * sizeof(double) + smallest);
     all = all && block[i];
   }
-  for (int i = 0; i < BLOCKS; i++) free(block[i]);
+  for (int i = 0; i < count; i++) free(block[i]);
   return all;
+}
+
+int ambulo__nlopt_can_copy(unsigned n) {
+  return can_take(4, (const size_t[]){0, n, n, n});
+}
+
+int ambulo__nlopt_can_descend(unsigned n, unsigned storage) {
+  size_t width = n > storage ? n : storage, rows = storage > 1 ? storage : 1;
+  return can_take(3, (const size_t[]){n, n, 4 * (size_t)n + 2 * rows * n + 2 * width});
 }
