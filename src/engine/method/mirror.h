@@ -64,7 +64,7 @@ int ambulo__mirror_agrees(unsigned n, const double *from, const double *to, cons
 int ambulo__nlopt_can_copy(unsigned n);
 
 /* L-BFGS of n variables takes one block for `storage` steps and gradients at every inner solve.
- * Where there is none, NLopt goes on without a word as a descent along the gradient. 1 when malloc
+ * Where there is none, NLopt silently descends along the gradient instead. 1 when malloc
  * has that, and the variables' two blocks before it, right now. Asked right before each inner
  * solve. */
 int ambulo__nlopt_can_descend(unsigned n, unsigned storage);

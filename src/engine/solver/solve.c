@@ -160,7 +160,6 @@ typedef struct search_of_starts {
   const ambulo_problem *problem; /* the coarse one */
   ambulo_options options;
   ambulo_allocator allocator;
-  int again;                            /* a second look: the own start has led nowhere */
   double begin, *x[AMBULO_MOST_STARTS]; /* where the valleys' first starts ended; [n] */
   ambulo__valleys *valleys;
 } search_of_starts;
@@ -296,8 +295,9 @@ static ambulo_status carry(const search_of_starts *s, const ambulo_problem *to, 
 
 /* *start, to be freed by the caller with the allocator, is where the best of them ends, carried
  * over to the problem's own grid; NULL where that is where the first one ends, which is the
- * solver's own start, or where none ends at a solution. The valleys are the caller's likewise. */
-static ambulo_status solve_starts(search_of_starts *s, const ambulo_problem *problem,
+ * solver's own start, or where none ends at a solution. The valleys are the caller's likewise.
+ * again: the own start has led nowhere. */
+static ambulo_status solve_starts(search_of_starts *s, const ambulo_problem *problem, int again,
                                   double **start) {
   ambulo_problem *grid = NULL;
   s->valleys = ambulo__alloc(&s->allocator, 1, sizeof *s->valleys);
@@ -309,7 +309,7 @@ static ambulo_status solve_starts(search_of_starts *s, const ambulo_problem *pro
     sort(s);
     s->valleys->shown.intervals = grid->definition.intervals;
     s->valleys->shown.basins = s->valleys->basin;
-    if (s->again && s->valleys->basin[0].first == 0) s->valleys->taken = 1;
+    if (again && s->valleys->basin[0].first == 0) s->valleys->taken = 1;
     status = carry(s, problem, start);
   }
   for (int b = 0; b < AMBULO_MOST_STARTS; b++) ambulo__free(&s->allocator, s->x[b]);
@@ -351,16 +351,16 @@ static ambulo_status challenge(search_of_starts *s, const ambulo_problem *proble
 static ambulo_status compare(search_of_starts *s, const ambulo_problem *problem, answer *own) {
   double *start = NULL;
   int several = s->options.starts > 1;
-  ambulo_status status = several ? solve_starts(s, problem, &start) : AMBULO_OK;
+  ambulo_status status = several ? solve_starts(s, problem, 0, &start) : AMBULO_OK;
   if (!status) status = answer_from(s, problem, NULL, own);
-  s->again = !status && !several && ambulo__result_leaves_doubts(&s->options, own->result);
-  if (s->again) {
+  int again = !status && !several && ambulo__result_leaves_doubts(&s->options, own->result);
+  if (again) {
     s->options.starts = SECOND_STARTS;
-    status = solve_starts(s, problem, &start);
+    status = solve_starts(s, problem, 1, &start);
   }
   if (!status) status = challenge(s, problem, start, own);
   ambulo__free(&s->allocator, start);
-  return s->again && status != AMBULO_E_MEMORY ? AMBULO_OK : status;
+  return again && status != AMBULO_E_MEMORY ? AMBULO_OK : status;
 }
 
 static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambulo_options *options,
