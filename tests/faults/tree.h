@@ -1,5 +1,6 @@
 /* tests/faults/tree.h - what is in a folder: paths with a hash of their bytes. Times, and
- * records that hold them, are left out of the hash. */
+ * records that hold them, are left out of the hash. A file that has not been written since its hash
+ * is known is not read again. */
 #ifndef AMBULO_TESTS_FAULTS_TREE_H
 #define AMBULO_TESTS_FAULTS_TREE_H
 
@@ -11,6 +12,9 @@
 typedef struct tree_entry {
   char path[240]; /* below the folder */
   unsigned long long hash;
+  ino_t file;
+  off_t size;
+  struct timespec changed;
 } tree_entry;
 
 typedef struct tree {
@@ -58,7 +62,25 @@ static inline unsigned long long tree_hash(const char *path) {
   return hash;
 }
 
-static inline void tree_add(tree *t, const char *folder, const char *below) {
+static inline int tree_order(const void *a, const void *b) {
+  return strcmp(((const tree_entry *)a)->path, ((const tree_entry *)b)->path);
+}
+
+static inline const tree_entry *tree_find(const tree *t, const char *path) {
+  tree_entry key;
+  assert_true(strlen(path) < sizeof key.path);
+  strcpy(key.path, path);
+  return t->count ? bsearch(&key, t->entry, (size_t)t->count, sizeof key, tree_order) : NULL;
+}
+
+/* whether it is the file of which the hash is known, and has not been written since */
+static inline int tree_unwritten(const tree_entry *known, const struct stat *now) {
+  return known && known->file == now->st_ino && known->size == now->st_size &&
+         known->changed.tv_sec == now->st_ctim.tv_sec &&
+         known->changed.tv_nsec == now->st_ctim.tv_nsec;
+}
+
+static inline void tree_add(tree *t, const char *folder, const char *below, const tree *known) {
   char path[700];
   (void)snprintf(path, sizeof path, "%s/%s", folder, below);
   DIR *stream = opendir(path);
@@ -73,21 +95,25 @@ static inline void tree_add(tree *t, const char *folder, const char *below) {
     (void)snprintf(path, sizeof path, "%s/%s", folder, one->path);
     int is_folder = lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode);
     /* a lock holds the number of a process */
-    one->hash = is_folder || strcmp(e->d_name, "lock") == 0 ? 0 : tree_hash(path);
+    one->file = entry.st_ino;
+    one->size = entry.st_size;
+    one->changed = entry.st_ctim;
+    const tree_entry *old = known ? tree_find(known, one->path) : NULL;
+    if (is_folder || strcmp(e->d_name, "lock") == 0)
+      one->hash = 0;
+    else
+      one->hash = tree_unwritten(old, &entry) ? old->hash : tree_hash(path);
     char name[240];
     memcpy(name, one->path, sizeof name);
-    if (is_folder) tree_add(t, folder, name);
+    if (is_folder) tree_add(t, folder, name, known);
   }
   if (stream) closedir(stream);
 }
 
-static inline int tree_order(const void *a, const void *b) {
-  return strcmp(((const tree_entry *)a)->path, ((const tree_entry *)b)->path);
-}
-
-static inline tree tree_of(const char *folder) {
+/* known: an earlier tree of the folder, or NULL */
+static inline tree tree_of(const char *folder, const tree *known) {
   tree t = {NULL, 0};
-  tree_add(&t, folder, "");
+  tree_add(&t, folder, "", known);
   qsort(t.entry, (size_t)t.count, sizeof *t.entry, tree_order);
   return t;
 }
@@ -95,13 +121,6 @@ static inline tree tree_of(const char *folder) {
 static inline void tree_free(tree *t) {
   free(t->entry);
   *t = (tree){NULL, 0};
-}
-
-static inline const tree_entry *tree_find(const tree *t, const char *path) {
-  tree_entry key;
-  assert_true(strlen(path) < sizeof key.path);
-  strcpy(key.path, path);
-  return t->count ? bsearch(&key, t->entry, (size_t)t->count, sizeof key, tree_order) : NULL;
 }
 
 /* in both, and alike */
@@ -115,8 +134,8 @@ static inline int tree_remove(const char *path) {
 }
 
 /* as it was before, from a copy; cheap where nothing old was touched */
-static inline void tree_restore(const char *folder, const tree *before, const char *copy) {
-  tree now = tree_of(folder);
+static inline void tree_restore(const char *folder, tree *before, const char *copy) {
+  tree now = tree_of(folder, before);
   int touched = 0;
   char path[700];
   for (int i = 0; i < now.count; i++) {
@@ -132,6 +151,8 @@ static inline void tree_restore(const char *folder, const tree *before, const ch
   if (!touched) return;
   (void)snprintf(path, sizeof path, "rm -rf '%s' && cp -r '%s' '%s'", folder, copy, folder);
   assert_int_equal(system(path), 0);
+  tree_free(before);
+  *before = tree_of(folder, NULL);
 }
 
 #endif
