@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# lint_abi.sh [--print]: the stable interface (include/ambulo/*.h) against that of the last
+# lint_abi.sh [print]: the stable interface (include/ambulo/*.h) against that of the last
 # release, .setup/abi/VERSION.txt. A program that was built with that release and runs with this library
 # breaks where
 #   - a function is gone, or has other arguments;
@@ -8,7 +8,7 @@
 # Then the number that CHANGELOG.md gives to the next release must be another major one (in 0.x: another
 # minor one), which is that of the soname; else this fails.
 #
-# --print writes the interface of these headers, as the compiler lays it out: what a release commits as
+# print writes the interface of these headers, as the compiler lays it out: what a release commits as
 # .setup/abi/VERSION.txt. Read from the debugging information of one object; skips without readelf.
 # Environment: CC; ABI_INCLUDE, ABI_BASE, ABI_NEXT: other headers, another file, another next version
 # (tests/package).
@@ -101,7 +101,7 @@ interface >"$work/now" || { echo 'lint_abi.sh: the headers do not compile' >&2; 
 [ "$(grep -c ^function "$work/now")" = "$(cd "$include/.." && "$OLDPWD/.setup/symbols.sh" stable | wc -l)" ] &&
   grep -q '^member' "$work/now" && grep -q '^constant' "$work/now" ||
   { echo "lint_abi.sh: the debugging information of $cc could not be read" >&2; exit 1; }
-[ "${1:-}" != --print ] || { cat "$work/now"; exit 0; }
+[ "${1:-}" != print ] || { cat "$work/now"; exit 0; }
 
 # --------------------------------------------------------------- what breaks
 

@@ -145,7 +145,7 @@ verdict_on() { # COMMAND HEADER
 }
 breaks() { verdict_on "$1" "$2" | tee /dev/stderr | grep -q '^programs of 1.0.0 break: 1 lines'; }
 if has readelf 'the interface against an older one' && [ "$(getconf LONG_BIT)" = 64 ]; then
-  check 'the interface is printed' sh -c ".setup/lint_abi.sh --print >'$work/1.0.0.txt' && grep -q '^function' '$work/1.0.0.txt'"
+  check 'the interface is printed' sh -c ".setup/lint_abi.sh print >'$work/1.0.0.txt' && grep -q '^function' '$work/1.0.0.txt'"
   check 'an argument more breaks programs' breaks 's/is_solution(ambulo_verdict verdict)/is_solution(ambulo_verdict verdict, int x)/' solve.h
   check 'a function of another name breaks programs' breaks 's/ambulo_verdict_is_solution(/ambulo_verdict_is_one(/' solve.h
   check 'a member of another type breaks programs' breaks 's/^  int maximum_evaluations;/  float maximum_evaluations;/' solve.h
