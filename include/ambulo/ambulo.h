@@ -12,6 +12,7 @@
  *     extend.h       terms and rows added to an existing problem
  *     evaluate.h     a problem at one point: values, gradients, the motion
  *     solve.h        the solver, the verdict and the audit
+ *     again.h        solving again beside a solution
  *     sensitivity.h  derivatives of the optimum with respect to each number of a problem
  *     parameters.h   numbers of a problem that the solver chooses
  *
@@ -39,6 +40,7 @@
 #define AMBULO_VERSION_PATCH 0
 #define AMBULO_VERSION_STRING "0.2.0"
 
+#include "ambulo/again.h"
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/evaluate.h"

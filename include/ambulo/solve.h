@@ -94,6 +94,8 @@ typedef struct ambulo_progress {
 
 #define AMBULO_MOST_STARTS 100
 
+typedef struct ambulo_multipliers ambulo_multipliers; /* ambulo/again.h */
+
 typedef struct ambulo_options {
   size_t size; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
@@ -117,6 +119,7 @@ typedef struct ambulo_options {
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;
+  const ambulo_multipliers *multipliers; /* of the solution that the start is; NULL: none */
 } ambulo_options;
 
 AMBULO_PROBLEM_DEFAULT(ambulo_options);
@@ -155,7 +158,7 @@ typedef struct ambulo_audit {
   double kkt;             /* |projected gradient| / |gradient|, infinity norms, 0 where the gradient
                              is zero; infinite: unknown */
   double complementarity; /* largest |multiplier * row| / max(1, |J|) */
-  int active_rows, rank;  /* of the rows active at the point; -1: a limit left no time for it */
+  int active_rows, rank;  /* of rows active at the point; -1: a limit left no time for it */
   int dropped_equalities; /* dependent on the others */
   int at_lower_bound;     /* 1: no term of the objective can be negative, none follows a reference,
                              and each is at most optimality_tolerance times its value with all
@@ -286,11 +289,10 @@ typedef struct ambulo_explanation {
                     1e-3 of its size). Only then is a solved problem called infeasible */
 } ambulo_explanation;
 
-/* Memory in bytes, predicted from sizes; within a factor of two for walks. */
+/* Memory in bytes, predicted from sizes; within a factor of two for walks: of the problem itself;
+ * of one workspace; peak of a solve, with both of them. */
 typedef struct ambulo_memory {
-  double problem;    /* the problem itself */
-  double evaluation; /* one workspace */
-  double solve;      /* peak of a solve, with both of them */
+  double problem, evaluation, solve;
 } ambulo_memory;
 AMBULO_API ambulo_memory ambulo_problem_memory(const ambulo_problem *problem);
 
@@ -361,9 +363,8 @@ typedef struct ambulo_basin {
   double distance;  /* from the cheapest: root mean square over the control points, rad and m */
 } ambulo_basin;
 typedef struct ambulo_starts {
-  int count, solved;          /* starts tried; that ended at a motion which holds every row */
-  int intervals;              /* of the coarse grid */
-  const ambulo_basin *basins; /* [basin_count], the best first */
+  int count, solved, intervals; /* starts tried; that hold every row; of the coarse grid */
+  const ambulo_basin *basins;   /* [basin_count], the best first */
   int basin_count;
   int chosen; /* the start whose solve on the problem's own grid is the result: 0, or the first of
                  the best valley where that came to less */
@@ -386,9 +387,8 @@ typedef struct ambulo_refinement {
 } ambulo_refinement;
 /* NULL: there was one grid. */
 AMBULO_API const ambulo_refinement *ambulo_result_refinement(const ambulo_result *result);
-/* Why the solver ended, in words, with the method and what it took. */
+/* Why the solver ended, in words, with the method and what it took; and as a code. */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
-/* The same as a code. */
 AMBULO_API ambulo_ending ambulo_result_ending_code(const ambulo_result *result);
 /* Of an infeasible problem or one that met a limit; NULL for every other verdict and for
  * points that were only audited. */

@@ -27,6 +27,7 @@ typedef struct job {
   ambulo_result *result;
   ambulo_sensitivity_list *sensitivities; /* NULL: not asked for */
   double *start;                          /* NULL: zero */
+  ambulo_multipliers *multipliers;        /* of the start; NULL: none */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
   double time_limit;  /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
@@ -112,9 +113,13 @@ static ambulo_status load_start(job *j) {
   if (!start || !strcmp(start, "zero")) return AMBULO_OK;
   j->start = calloc((size_t)ambulo_problem_variable_count(j->problem), sizeof *j->start);
   if (!j->start) return AMBULO_E_MEMORY;
-  if (j->repeat != AMBULO_ENDS_FREE)
-    return ambulo_solution_repeat(start, j->problem, j->repeat, NULL, j->diagnostics, j->start);
-  return ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start);
+  ambulo_status status =
+      j->repeat == AMBULO_ENDS_FREE
+          ? ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start)
+          : ambulo_solution_repeat(start, j->problem, j->repeat, NULL, j->diagnostics, j->start);
+  if (status) return status;
+  return ambulo_solution_multipliers(start, j->problem, j->repeat, NULL, j->diagnostics,
+                                     &j->multipliers);
 }
 
 static ambulo_options solver_options(const job *j) {
@@ -244,6 +249,7 @@ static void give_up_sensitivities(void *user, const ambulo_progress *last, ambul
 
 static ambulo_status solve(job *j) {
   ambulo_options options = solver_options(j);
+  options.multipliers = j->multipliers;
   options.progress = show_progress;
   options.user = j;
   ambulo__cli_catch_stops(1);
@@ -302,6 +308,7 @@ static int run(const ambulo__cli_input *input) {
   ambulo_diagnostics_free(j.diagnostics);
   free(j.inputs);
   free(j.start);
+  ambulo_multipliers_free(j.multipliers);
   free(j.directory);
   return code;
 }

@@ -12,6 +12,7 @@
 #include "base/sized.h"
 #include "contact/contacts.h"
 #include "formats/atomic_file.h"
+#include "formats/json_text.h"
 #include "formats/motion_write.h"
 #include "model/model_check.h"
 #include "people/stride.h"
@@ -44,6 +45,74 @@ static void trajectory(const ambulo__basis *basis, ambulo__text_buffer *text) {
   number_list(text, ambulo__basis_breakpoints(basis), intervals + 1);
 }
 
+/* multipliers as definitions/solution_multipliers.c reads them */
+
+static int presses(const ambulo_problem *p, const ambulo_result *result, int row) {
+  return p->table.rows[row].relation == AMBULO_NOT_NEGATIVE &&
+         ambulo_result_multipliers(result)[row] > 0.0;
+}
+
+enum { UNKNOWN, DONE, WANTED };
+
+/* the rows that are like `first`, the first with a force: wanted are those with a force and their
+ * neighbours in time, where its density ends */
+static void choose(const ambulo_problem *p, const ambulo_result *result, int first, char *state) {
+  int before = -1;
+  for (int r = 0; r < p->rows; r++) {
+    if (!ambulo__rows_alike(&p->table.rows[r], &p->table.rows[first])) continue;
+    int pressed = before >= 0 && presses(p, result, before);
+    state[r] = presses(p, result, r) || pressed ? WANTED : DONE;
+    if (before >= 0 && presses(p, result, r)) state[before] = WANTED;
+    before = r;
+  }
+}
+
+static void series(const ambulo_problem *p, const ambulo_result *result, int first, char *state,
+                   ambulo__text_buffer *text) {
+  const ambulo__table_row *rows = p->table.rows;
+  const char *const label[] = {rows[first].family, rows[first].subject, rows[first].detail};
+  ambulo__text_append(text, "\n    - name: [");
+  for (int i = 0; i < 3; i++) {
+    ambulo__text_append(text, i ? ", " : "");
+    ambulo__json_quote(text, label[i]);
+  }
+  choose(p, result, first, state);
+  for (int part = 0; part < 2; part++) {
+    const char *between = part ? "]\n      densities: [" : "]\n      times: [";
+    for (int r = 0; r < p->rows; r++) {
+      if (state[r] != WANTED) continue;
+      double time = rows[r].node < 0 ? 1.0 : p->quadrature[rows[r].node];
+      double density = presses(p, result, r) ? ambulo_result_multipliers(result)[r] / time : 0.0;
+      ambulo__text_append(text, between);
+      ambulo__text_append_number(text, part ? density : rows[r].time / p->definition.duration);
+      between = ", ";
+      if (part) state[r] = DONE;
+    }
+  }
+  ambulo__text_append(text, "]");
+}
+
+static void multipliers(const ambulo_problem *p, const ambulo_result *result,
+                        ambulo__text_buffer *text) {
+  char *state = ambulo__alloc(&text->allocator, (size_t)p->rows + 1, sizeof *state);
+  if (!state) {
+    text->failed = 1;
+    return;
+  }
+  double interval = 0.0;
+  for (int k = 0; k + 1 < p->nodes; k++) interval = fmax(interval, p->times[k + 1] - p->times[k]);
+  ambulo__text_append(text, "multipliers:\n  objective: ");
+  ambulo__text_append_number(text, ambulo_result_objective(result));
+  ambulo__text_append(text, "\n  interval: ");
+  ambulo__text_append_number(text, interval / p->definition.duration);
+  ambulo__text_append(text, "\n  rows:");
+  size_t before = text->length;
+  for (int r = 0; r < p->rows; r++)
+    if (presses(p, result, r) && state[r] == UNKNOWN) series(p, result, r, state, text);
+  ambulo__text_append(text, text->length > before ? "\n" : " []\n");
+  ambulo__free(&text->allocator, state);
+}
+
 void ambulo__solution_yaml(const ambulo_problem *problem, const ambulo_result *result,
                            ambulo__text_buffer *text) {
   const ambulo_model *model = problem->model;
@@ -65,6 +134,7 @@ void ambulo__solution_yaml(const ambulo_problem *problem, const ambulo_result *r
     ambulo__text_append(text, "  - ");
     number_list(text, x + (size_t)c * (size_t)problem->coordinates, problem->coordinates);
   }
+  multipliers(problem, result, text);
 }
 
 /* -------------------------------------------------------------- the result folder */

@@ -16,8 +16,10 @@ static ambulo_options tight(const ambulo_problem *problem) {
   return options;
 }
 
-static ambulo_result *solve(const ambulo_problem *problem, const double *start) {
+static ambulo_result *solve(const ambulo_problem *problem, const double *start,
+                            const ambulo_multipliers *multipliers) {
   ambulo_options options = tight(problem);
+  options.multipliers = multipliers;
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_solve(problem, &options, start, NULL, NULL, &result), AMBULO_OK);
   assert_true(ambulo_verdict_is_solution(verdict_at_nodes(result)));
@@ -26,10 +28,10 @@ static ambulo_result *solve(const ambulo_problem *problem, const double *start) 
 
 static double best_at(const char *file, const char *const *base, int count,
                       const ambulo_problem *problem, const ambulo_sensitivity *s, double by,
-                      const double *start) {
+                      const double *start, const ambulo_multipliers *multipliers) {
   ambulo_problem *moved = moved_problem(file, base, count, problem, s, by);
   assert_non_null(moved);
-  ambulo_result *result = solve(moved, start);
+  ambulo_result *result = solve(moved, start, multipliers);
   double objective = ambulo_result_objective(result);
   ambulo_result_free(result);
   ambulo_problem_free(moved);
@@ -51,14 +53,17 @@ static void compare(const char *file, const char *const *base, int count, const 
   ambulo_sensitivity_list *list = NULL;
   int all = 0, compared = 0;
   assert_int_equal(ambulo_problem_load(file, base, count, NULL, NULL, &problem), AMBULO_OK);
-  ambulo_result *result = solve(problem, NULL);
+  ambulo_result *result = solve(problem, NULL, NULL);
   const double *x = ambulo_result_x(result), best = ambulo_result_objective(result);
+  ambulo_multipliers *multipliers = NULL;
   assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  assert_int_equal(ambulo_multipliers_of(problem, result, NULL, &multipliers), AMBULO_OK);
   assert_string_equal(list->reason, "");
   for (; *names; names++, all++) {
     const ambulo_sensitivity *s = find(list, *names);
     double by = part * s->step, value[2];
-    for (int k = 0; k < 2; k++) value[k] = best_at(file, base, count, problem, s, k ? by : -by, x);
+    for (int k = 0; k < 2; k++)
+      value[k] = best_at(file, base, count, problem, s, k ? by : -by, x, multipliers);
     double slope = (value[1] - value[0]) / (2.0 * by), near = 100.0 * fabs(by * s->derivative);
     if (fabs(value[0] - best) > near || fabs(value[1] - best) > near) continue;
     compared++;
@@ -66,6 +71,7 @@ static void compare(const char *file, const char *const *base, int count, const 
       fail_msg("%s: %s is %.9g, solves give %.9g", file, s->name, s->derivative, slope);
   }
   assert_true(2 * compared >= all);
+  ambulo_multipliers_free(multipliers);
   ambulo_sensitivities_free(list);
   ambulo_result_free(result);
   ambulo_problem_free(problem);

@@ -6,6 +6,7 @@
 #ifndef AMBULO_TOOLS_LOAD_H
 #define AMBULO_TOOLS_LOAD_H
 
+#include "ambulo/again.h"
 #include "ambulo/parameters.h"
 #include "ambulo/tools/common.h"
 
@@ -103,6 +104,14 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_start(const char *path
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_repeat(
     const char *path, const ambulo_problem *problem, ambulo_ends ends,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, double *x);
+
+/* The multipliers in a solution.yaml (ambulo_options.multipliers), for a problem that starts from
+ * its motion by ambulo_solution_start, or by ambulo_solution_repeat where `ends` are not free.
+ * *multipliers becomes NULL where the file has none. Errors: E_IO, E_PARSE, E_SCHEMA, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_solution_multipliers(const char *path, const ambulo_problem *problem, ambulo_ends ends,
+                            const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                            ambulo_multipliers **multipliers);
 
 /* --------------------------------------------------------------------- files */
 

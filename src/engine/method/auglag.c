@@ -27,6 +27,10 @@
  *   sigma      where a call has to be repeated, it starts with the lambda of the last one.
  *   ending     pipeline.h, by nlopt_force_stop.
  *
+ *   R lower    where two inner solves in a row bring less than half of what the model promised, the
+ *              penalty is too stiff for L-BFGS, and rows that do not hold are unfinished work: R
+ *              does not grow, and falls to a tenth. S is raised for it; lambda stays.
+ *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
  * the phases are distinguished. It starts with rho = 1e-6 where the constant makes its f zero and
  * some row is violated, with 10 where none is and f > 0: S makes R of it.
@@ -36,6 +40,7 @@
 #include "method/mirror.h"
 #include "method/model_step.h"
 #include "method/parameters.h"
+#include "method/trust.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -72,9 +77,7 @@ struct drive {
   int flat;            /* the gradient counts as zero */
   int dirty;           /* slot of NLopt's one buffer for all blocks that is not zero; -1: none */
   double scale, constant;
-  double damping;   /* the engine's mu at the beginning */
-  double predicted; /* by the model step */
-  double tried;     /* F at the model step, NLopt's first trial */
+  ambulo__trust trust;
   int trials;       /* with gradient, since the chart was laid */
   int started, lay; /* NLopt knows rho; the chart is to be laid at NLopt's next point */
   int anew;         /* the call is to be repeated with own gradients */
@@ -88,25 +91,13 @@ struct drive {
 static ambulo_ending lay_chart(drive *s, const double *w) {
   ambulo__engine *e = s->engine;
   memcpy(e->iterate.x, s->x, (size_t)e->setup->n * sizeof *w);
-  int failed = ambulo__model_step(e, &s->predicted);
+  int failed = ambulo__model_step(e, &s->trust.predicted);
   if (failed) return failed == 2 ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_BREAKDOWN;
   s->trials = 0;
   s->lay = 0;
   if (!ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale))) return AMBULO_ENDING_NOT_FINITE;
-  s->tried = s->chart.start;
+  s->trust.start = s->trust.tried = s->chart.start;
   return AMBULO_ENDING_NONE;
-}
-
-/* how well the model predicted the descent says whether it is damped too much */
-static void update_damping(drive *s, double reached) {
-  double *mu = &s->engine->iterate.mu;
-  double promised = fmin(s->predicted, -1e-14);
-  double by_step = (s->tried - s->chart.start) / promised;
-  double in_all = (reached - s->chart.start) / promised;
-  if (in_all > AMBULO__DAMPING_LOWER_ALL)
-    *mu = fmax(AMBULO__DAMPING_LEAST * s->damping, *mu / AMBULO__DAMPING_CHANGE);
-  if (by_step < AMBULO__DAMPING_RAISE_STEP)
-    *mu = fmax(*mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * *mu));
 }
 
 /* -------------------------------------------------------- after an inner solve */
@@ -119,14 +110,13 @@ static void take_multipliers(drive *s) {
     iterate->lambda[i] = s->mirror.multiplier[i] + s->mirror.penalty * s->shift[i];
 }
 
-/* (P.12): NLopt's update, and the growth of R that it leads to */
+/* (P.12): NLopt's update, and what becomes of R by it */
 static void update_multipliers(drive *s) {
   ambulo__engine *e = s->engine;
   for (int i = 0; i < s->mirror.rows; i++) s->violated[i] |= s->row[i] > 0.0;
-  if (ambulo__mirror_update(&s->mirror, s->row)) {
-    double room = s->stopping->penalty_limit / e->iterate.rho;
-    s->scale *= fmax(1.0, fmin(AMBULO__PENALTY_GROWTH, room)) / AMBULO__NLOPT_GROWTH;
-  }
+  int raised = ambulo__mirror_update(&s->mirror, s->row);
+  if (raised) s->scale /= AMBULO__NLOPT_GROWTH;
+  s->scale *= ambulo__trust_penalty(&s->trust, raised, e->iterate.rho, &s->stopping->penalty_limit);
   memset(s->shift, 0, (size_t)e->setup->inequalities * sizeof *s->shift);
   take_multipliers(s);
 }
@@ -138,7 +128,7 @@ static void inner_ended(drive *s, double value) {
   ambulo__run *run = e->run;
   ambulo__trial_copy(last, &e->reached);
   memcpy(s->x, last->x, (size_t)e->setup->n * sizeof *s->x);
-  update_damping(s, value);
+  e->iterate.mu = ambulo__trust_damping(&s->trust, e->iterate.mu, value, last->objective);
   update_multipliers(s);
   ambulo__run_forgive(run);
   run->iterations++;
@@ -197,7 +187,7 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   if (s->flat) memset(gradient, 0, n * sizeof *gradient);
   if (++s->trials == 1) memcpy(s->first, gradient, n * sizeof *gradient);
   if (s->trials == 2) {
-    s->tried = fmin(merit, s->chart.start);
+    s->trust.tried = fmin(merit, s->chart.start);
     s->anew = !e->run->own_gradients && !ambulo__mirror_agrees(n, s->chart.origin, w, s->first);
     e->run->own_gradients |= s->anew;
     if (s->anew) return give_up(s, n, gradient);
@@ -389,7 +379,7 @@ static ambulo_status run(drive *s) {
 
 ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, double *x,
                              ambulo_ending *ending) {
-  drive s = {.engine = e, .stopping = stopping, .x = x, .damping = e->iterate.mu};
+  drive s = {.engine = e, .stopping = stopping, .x = x, .trust = {.damping = e->iterate.mu}};
   ambulo__pool pool;
   ambulo__pool_init(&pool, &e->pool.allocator);
   ambulo_status status = create(&s, &pool);

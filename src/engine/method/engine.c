@@ -61,7 +61,7 @@ static ambulo_status create_iterate(ambulo__engine *e) {
   iterate->lambda = ambulo__pool_doubles(&e->pool, (size_t)s->inequalities);
   iterate->equality_multiplier = ambulo__pool_doubles(&e->pool, (size_t)s->equalities);
   iterate->border_multiplier = ambulo__pool_doubles(&e->pool, (size_t)s->borders);
-  iterate->coarse_objective = -1.0;
+  iterate->carried_objective = -1.0;
   return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 

@@ -40,8 +40,8 @@ typedef struct ambulo__iterate {
   double *equality_multiplier; /* [equalities]: G + J' l + C' m = 0 at a solution */
   double *border_multiplier;   /* [borders]: m, after a model step */
   double rho, mu;              /* penalty; damping */
-  double coarse_objective;     /* lambda is from a coarser grid (refine.c), where the objective (not
-                                   scaled) came to this; < 0: it is not */
+  double carried_objective; /* lambda is of another solve (multipliers.h), where the objective (not
+                                scaled) came to this; < 0: it is not */
 } ambulo__iterate;
 
 /* The linear algebra at x_k. */

@@ -14,6 +14,7 @@
 #include "method/pipeline.h"
 
 #include "base/alloc.h"
+#include "method/multipliers.h"
 #include "method/parameters.h"
 #include "problem/callbacks.h"
 #include "problem/nlp.h"
@@ -40,28 +41,14 @@ static int has_far_rows(const ambulo_workspace *w) {
   return memchr(w->far, 1, (size_t)w->problem->rows) != NULL;
 }
 
-/* the multipliers of an engine, by rows of the problem */
-static void keep_multipliers(const ambulo__engine *e, double *by_row) {
-  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
-  memset(by_row, 0, (size_t)e->setup->problem->rows * sizeof *by_row);
-  for (int i = 0; i < rows->count; i++)
-    by_row[rows->row[i]] = -rows->scale[i] * e->iterate.lambda[i] / e->setup->objective_scale;
-}
-
-static void take_multipliers(ambulo__engine *e, const double *by_row) {
-  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
-  for (int i = 0; i < rows->count; i++)
-    e->iterate.lambda[i] = by_row[rows->row[i]] * e->setup->objective_scale / -rows->scale[i];
-}
-
 /* the engine for the rows that are in the set now, with the multipliers it had */
 static ambulo_status renew(ambulo__engine *e, const double *x, double *by_row) {
-  double coarse = e->iterate.coarse_objective;
-  keep_multipliers(e, by_row);
+  double carried = e->iterate.carried_objective;
+  ambulo__multipliers_keep(e, by_row);
   ambulo_status status = ambulo__engine_renew(e, x);
   if (status) return status;
-  take_multipliers(e, by_row);
-  e->iterate.coarse_objective = coarse;
+  ambulo__multipliers_take(e, by_row);
+  e->iterate.carried_objective = carried;
   return AMBULO_OK;
 }
 
@@ -85,7 +72,7 @@ static ambulo_status solve_rounds(ambulo__engine *e, ambulo__stage stage, double
       break;
     if (look(e->workspace, x, missed) == 0) break;
     status = renew(e, x, by_row);
-    e->iterate.coarse_objective = fabs(e->workspace->objective); /* multipliers are kept */
+    e->iterate.carried_objective = fabs(e->workspace->objective); /* multipliers are kept */
   }
   return status;
 }

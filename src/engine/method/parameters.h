@@ -17,7 +17,7 @@
 
 #include "linear/parameters.h"
 
-/* ------------------------------------ damping mu of the model step (auglag.c, pipeline.c) */
+/* ------------------------------------- damping mu of the model step (trust.c, pipeline.c) */
 
 /* mu at the start, times the time T/K of a control point; rad^-2 or m^-2 of scaled objective. x:
  * +11 %, +20 %. T: pipeline. */
@@ -72,6 +72,25 @@
 /* R with a coarser grid's multipliers, which a weak penalty would let drift. 0 (10): +19 %. T:
  * pipeline. */
 #define AMBULO__PENALTY_COARSE (16.0 * AMBULO__PENALTY_START)
+/* The same with those of a solution beside that is far: the objective there differs by BESIDE_FAR
+ * of it or more; at most BESIDE_MOST times as much where it is close (pipeline.c). Iterations of 22
+ * solves beside one (speed, length, mass, stature, grid), R = 80 for all: 338; double: 372; half:
+ * 435; walk at +.1 % of speed, R = 80: 8, 160: 5, 640: 8; at +5 %: 10, 14, 26. T: pipeline. */
+#define AMBULO__PENALTY_BESIDE (8.0 * AMBULO__PENALTY_START)
+#define AMBULO__BESIDE_FAR 0.05
+#define AMBULO__BESIDE_MOST 8.0
+/* Least divisor of a row that is short in the metric, with those of a solution beside: such rows
+ * give way to a larger penalty. The same solves: .1 385, 1 (none) about 500. From elsewhere the
+ * multipliers have still to be found, and it gains nothing. T: pipeline. */
+#define AMBULO__SHORT_ROW 0.3
+/* Of the promised descent: an inner solve that brought less was short. Promises below GAIN_COUNTS
+ * of f are rounding. SHORT_SOLVES in a row show that R is too stiff, where it is above
+ * PENALTY_STIFF: it is divided by PENALTY_STEP. 29 problems, evaluations: 16398; 0 (never): 18511;
+ * a quarter for a tenth: 18568; .3 for .5: 17314; 2 in a row: 16650. T: trust. */
+#define AMBULO__GAIN_SHORT 0.5
+#define AMBULO__GAIN_COUNTS 1e-5
+#define AMBULO__SHORT_SOLVES 3
+#define AMBULO__PENALTY_STIFF (10.0 * AMBULO__PENALTY_START)
 /* Times the coarse solution's objective: below, that grid had resolved the motion and its
  * multipliers are kept. 0 (never): +20 %; always: +19 %, yardstick_72 +2.5 % of the objective. T:
  * pipeline. */

@@ -4,7 +4,8 @@
  *     mu = mu_0 T/K, rho = 10, lambda = 0; rho = 3000 where the start nearly satisfies the rows: a
  *     weaker penalty would let go of them, and the solve would wander off into another valley.
  *     lambda of a coarser grid (refine.c), rho = 160 and a quarter of mu where that grid had
- *     resolved the motion
+ *     resolved the motion; lambda of a solution beside (multipliers.h), rho = 80 to
+ *     640 by its distance
  *
  * Equalities hold all along: every point is a retracted one.
  *
@@ -22,20 +23,31 @@
 #include <math.h>
 #include <string.h>
 
+/* (P.13) R beside a solution: the farther it is, the weaker. d is by what share the objective has
+ * changed on the way here. */
+static double penalty_beside(const ambulo__engine *e, double objective) {
+  double carried = e->iterate.carried_objective, d = fabs(objective - carried);
+  double share = carried > 0.0 ? d / carried : HUGE_VAL;
+  double factor = pow(AMBULO__BESIDE_FAR / share, 0.25);
+  return AMBULO__PENALTY_BESIDE * fmax(1.0, fmin(AMBULO__BESIDE_MOST, factor));
+}
+
 /* The multipliers of a coarser grid are kept where that grid had resolved the motion: its objective
- * is about the one of its solution here. */
+ * is about the one of its solution here. Those of a solution beside are kept. */
 static void begin_multipliers(ambulo__engine *e, ambulo__stage stage) {
   double objective = fabs(e->workspace->objective);
-  int carried = e->iterate.coarse_objective >= 0.0 &&
-                objective <= AMBULO__COARSE_OBJECTIVE * e->iterate.coarse_objective;
+  int carried = e->iterate.carried_objective >= 0.0 &&
+                (stage == AMBULO__BESIDE ||
+                 objective <= AMBULO__COARSE_OBJECTIVE * e->iterate.carried_objective);
   e->iterate.rho = stage == AMBULO__NEAR ? AMBULO__PENALTY_LIMIT : AMBULO__PENALTY_START;
   if (carried) {
-    e->iterate.rho = AMBULO__PENALTY_COARSE;
+    e->iterate.rho =
+        stage == AMBULO__BESIDE ? penalty_beside(e, objective) : AMBULO__PENALTY_COARSE;
     e->iterate.mu /= AMBULO__DAMPING_CHANGE * AMBULO__DAMPING_CHANGE;
   } else {
     memset(e->iterate.lambda, 0, (size_t)e->setup->inequalities * sizeof *e->iterate.lambda);
   }
-  e->iterate.coarse_objective = -1.0;
+  e->iterate.carried_objective = -1.0;
   memset(e->iterate.equality_multiplier, 0,
          (size_t)e->setup->equalities * sizeof *e->iterate.equality_multiplier);
 }
@@ -50,7 +62,7 @@ static ambulo_status solve(ambulo__engine *e, ambulo__stage stage, ambulo__stopp
     return status;
   }
   begin_multipliers(e, stage);
-  ambulo__balance_rows(e, x);
+  ambulo__balance_rows(e, stage, x);
   return ambulo__auglag(e, stopping, x, ending);
 }
 
@@ -76,9 +88,10 @@ static void divide(ambulo__engine *e, int i, double size) {
   ambulo__sparse_rows_set_scale(&rows->inequality, i, -1.0 / size);
 }
 
-/* (P.15) v = -c / (s max(1, sqrt l)) */
-void ambulo__balance_rows(ambulo__engine *e, const double *x) {
+/* (P.15) v = -c / (s max(1, sqrt l)), near a solution -c / (s max(.3, sqrt l)) */
+void ambulo__balance_rows(ambulo__engine *e, ambulo__stage stage, const double *x) {
   ambulo__row_roles *rows = &e->linearized.rows;
+  int near = stage == AMBULO__NEAR || stage == AMBULO__BESIDE;
   if (ambulo__evaluate_jacobian(e->workspace, x) ||
       ambulo__sparse_rows_fill(&rows->inequality, e->workspace, 0) ||
       ambulo__engine_fill_metric(e, e->iterate.mu))
@@ -86,7 +99,9 @@ void ambulo__balance_rows(ambulo__engine *e, const double *x) {
   for (int i = 0; i < e->setup->inequalities; i++) {
     divide(e, i, rows->unit[i]);
     double length = ambulo__band_row_length(&e->linearized.base, &rows->inequality, i);
-    if (length > 1.0 && isfinite(length)) divide(e, i, rows->unit[i] * sqrt(length));
+    double shortest = near ? AMBULO__SHORT_ROW : 1.0;
+    if (isfinite(length) && length > 0.0)
+      divide(e, i, rows->unit[i] * fmax(shortest, sqrt(length)));
   }
 }
 

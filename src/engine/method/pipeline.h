@@ -7,6 +7,7 @@
 typedef enum ambulo__stage {
   AMBULO__COARSE, /* a coarse grid whose solution only starts the next one: wide tolerances */
   AMBULO__FAR,    /* from anywhere */
+  AMBULO__BESIDE, /* from the solution of a problem like this one, with its multipliers */
   AMBULO__NEAR    /* from a point that nearly satisfies the rows, and stays in its valley */
 } ambulo__stage;
 
@@ -40,11 +41,12 @@ ambulo_status ambulo__smooth_start(ambulo__engine *engine, double *x, int *smoot
  * with D the diagonal of the metric. Evaluations over 29 shipped problems, one run: in units 7900,
  * this 7300, by l instead of its root as many; with short rows strengthened likewise 6500, but
  * tasks that are hard to reach are then abandoned (range_excludes_posture; walker_2d_step on finer
- * grids takes 63 iterations, not 26). */
+ * grids takes 63 iterations, not 26). Beside a solution, where the multipliers are known, short
+ * rows are strengthened too: max(.3, sqrt l). */
 
 /* Sizes of the inequalities at x; multipliers become those of the rows as they are then. Where
  * something is not finite all stays as it is: whoever works with it next meets it again. */
-void ambulo__balance_rows(ambulo__engine *engine, const double *x);
+void ambulo__balance_rows(ambulo__engine *engine, ambulo__stage stage, const double *x);
 
 /* When the method on one grid is done (stopping.c).
  *

@@ -14,12 +14,12 @@
 #include "method/refine.h"
 
 #include "contact/schedule.h"
+#include "method/multipliers.h"
 #include "method/parameters.h"
 #include "method/pipeline.h"
 #include "problem/callbacks.h"
 #include "problem/nlp.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,13 +53,13 @@ static int coarse_spline(int intervals, int nodes, int spline, int least) {
 typedef struct level {
   ambulo_problem *problem; /* NULL: none yet */
   double *x;
-  ambulo__saved_multipliers saved;
+  ambulo_multipliers *multipliers; /* NULL: none */
 } level;
 
 static void free_level(const ambulo_allocator *a, level *l) {
   ambulo_problem_free(l->problem);
   ambulo__free(a, l->x);
-  ambulo__multipliers_free(a, &l->saved);
+  ambulo_multipliers_free(l->multipliers);
   memset(l, 0, sizeof *l);
 }
 
@@ -84,12 +84,12 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
   if (!status) status = ambulo__engine_create(new.problem, new.x, a, run, NULL, &engine);
   if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
   if (!status && engine && engine->setup->rows->regular) {
-    if (before->problem) ambulo__multipliers_transfer(&before->saved, engine);
+    ambulo__multipliers_transfer(before->multipliers, engine);
     status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
     useful = !status && engine->reached.value < HUGE_VAL;
     resolved = engine->reached.violation <= AMBULO__ROUGH_VIOLATION;
   }
-  if (useful && resolved) status = ambulo__multipliers_save(engine, a, &new.saved);
+  if (useful && resolved) status = ambulo__multipliers_save(engine, a, &new.multipliers);
   ambulo__engine_free(engine);
   if (useful && !status) {
     free_level(a, before);
@@ -117,103 +117,9 @@ ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocato
     if (coarse >= 1) status = solve_level(p, grid[count], coarse, &a, e->run, &last);
   }
   if (!status && last.problem && ambulo_problem_transfer(last.problem, last.x, p, x) == AMBULO_OK) {
-    ambulo__multipliers_transfer(&last.saved, e);
+    ambulo__multipliers_transfer(last.multipliers, e);
     *levels = 1;
   }
   free_level(&a, &last);
   return status;
-}
-
-/* the multipliers of one grid, for another */
-
-/* FNV-1a 64 of the labels, each with its end */
-static unsigned long long series_of(const ambulo__table_row *row) {
-  const char *const label[] = {row->family, row->subject, row->detail};
-  unsigned long long hash = 14695981039346656037ULL;
-  for (int i = 0; i < 3; i++) {
-    for (const char *c = label[i];; c++) {
-      hash = (hash ^ (unsigned char)*c) * 1099511628211ULL;
-      if (!*c) break;
-    }
-  }
-  return hash;
-}
-
-static int by_series_and_time(const void *a, const void *b) {
-  const ambulo__saved_row *one = a, *other = b;
-  if (one->series != other->series) return one->series < other->series ? -1 : 1;
-  return (one->time > other->time) - (one->time < other->time);
-}
-
-/* time that a row stands for, s */
-static double time_of(const ambulo_problem *p, const ambulo__table_row *row) {
-  return row->node < 0 ? 1.0 : p->quadrature[row->node];
-}
-
-ambulo_status ambulo__multipliers_save(const ambulo__engine *e, const ambulo_allocator *allocator,
-                                       ambulo__saved_multipliers *saved) {
-  const ambulo_problem *p = e->setup->problem;
-  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
-  ambulo__multipliers_free(allocator, saved);
-  saved->row = ambulo__alloc(allocator, (size_t)e->setup->inequalities, sizeof *saved->row);
-  if (!saved->row) return AMBULO_E_MEMORY;
-  saved->interval = 0.0;
-  for (int k = 0; k + 1 < p->nodes; k++)
-    saved->interval = fmax(saved->interval, p->times[k + 1] - p->times[k]);
-  saved->count = e->setup->inequalities;
-  saved->objective = e->reached.objective / e->setup->objective_scale;
-  for (int i = 0; i < e->setup->inequalities; i++) {
-    const ambulo__table_row *row = &p->table.rows[rows->row[i]];
-    double multiplier = -rows->scale[i] * e->iterate.lambda[i] / e->setup->objective_scale;
-    saved->row[i] = (ambulo__saved_row){series_of(row), row->time, multiplier / time_of(p, row)};
-  }
-  qsort(saved->row, (size_t)saved->count, sizeof *saved->row, by_series_and_time);
-  return AMBULO_OK;
-}
-
-/* the first row that is not before this one */
-static int find(const ambulo__saved_multipliers *saved, const ambulo__saved_row *wanted) {
-  int low = 0, high = saved->count;
-  while (low < high) {
-    int middle = low + (high - low) / 2;
-    if (by_series_and_time(&saved->row[middle], wanted) < 0) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
-/* of rows next to each other: linear between them; of one alone: constant for half an interval */
-static double density_at(const ambulo__saved_multipliers *saved, unsigned long long series,
-                         double time) {
-  const ambulo__saved_row wanted = {series, time, 0.0};
-  int after = find(saved, &wanted), before = after - 1;
-  int has_after = after < saved->count && saved->row[after].series == series;
-  int has_before = before >= 0 && saved->row[before].series == series;
-  const ambulo__saved_row *b = has_before ? &saved->row[before] : NULL;
-  const ambulo__saved_row *a = has_after ? &saved->row[after] : NULL;
-  if (a && b && a->time - b->time < 1.5 * saved->interval)
-    return b->density + (a->density - b->density) * (time - b->time) / (a->time - b->time);
-  double reach = 0.5 * saved->interval * (1.0 + 1e-9);
-  if (a && a->time - time <= reach) return a->density;
-  return b && time - b->time <= reach ? b->density : 0.0;
-}
-
-/* (P.13) densities of the coarse grid times w_k of this one */
-void ambulo__multipliers_transfer(const ambulo__saved_multipliers *saved, ambulo__engine *e) {
-  const ambulo_problem *p = e->setup->problem;
-  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
-  for (int i = 0; i < e->setup->inequalities; i++) {
-    const ambulo__table_row *row = &p->table.rows[rows->row[i]];
-    double multiplier = time_of(p, row) * density_at(saved, series_of(row), row->time);
-    e->iterate.lambda[i] = fmax(0.0, e->setup->objective_scale * multiplier / -rows->scale[i]);
-  }
-  e->iterate.coarse_objective = saved->count > 0 ? fabs(saved->objective) : -1.0;
-}
-
-void ambulo__multipliers_free(const ambulo_allocator *allocator, ambulo__saved_multipliers *saved) {
-  ambulo__free(allocator, saved->row);
-  memset(saved, 0, sizeof *saved);
 }

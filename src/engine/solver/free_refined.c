@@ -23,6 +23,7 @@
  */
 #include "ambulo/parameters.h"
 #include "base/machine.h"
+#include "ambulo/again.h"
 #include "base/diagnostics.h"
 #include "solver/result.h"
 #include "problem/nlp.h"
@@ -161,7 +162,12 @@ static ambulo_status refine(refinement *r, int *done) {
   double *x = status ? NULL : ambulo__alloc(&a, (size_t)finer->variables, sizeof *x);
   if (!status && !x) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo_problem_transfer(current(r), r->result->x, finer, x);
+  ambulo_multipliers *multipliers = NULL;
+  if (!status) status = ambulo_multipliers_of(current(r), r->result, r->allocator, &multipliers);
+  r->options.multipliers = multipliers;
   if (!status) status = solve(r, finer, x, &result, &messages);
+  r->options.multipliers = NULL;
+  ambulo_multipliers_free(multipliers);
   ambulo__free(&a, x);
   int better = !status && is_better(r->result, result);
   *done = !better || has_settled(r->result, result);

@@ -5,6 +5,7 @@
  * duration or of other footholds: the same motion, stretched. Where that leads to no optimal
  * motion, a solve from zero has the last word: a valley may end between the two values.
  */
+#include "ambulo/again.h"
 #include "base/diagnostics.h"
 #include "base/machine.h"
 #include "base/sized.h"
@@ -180,8 +181,11 @@ static ambulo_status build(ambulo__outer *run, ambulo__outer_trial *t) {
   return problem_at(run->problem, p, t->value, &run->allocator, t->messages, &t->problem);
 }
 
-static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, const double *start) {
+/* `multipliers`: of the start */
+static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, const double *start,
+                                const ambulo_multipliers *multipliers) {
   ambulo_options options = run->options;
+  options.multipliers = multipliers;
   ambulo_result *result = NULL;
   options.progress = show;
   options.user = run;
@@ -208,10 +212,15 @@ static int counts(const ambulo__outer *run, const ambulo__outer_trial *t) {
 }
 
 static ambulo_status solve(ambulo__outer *run, ambulo__outer_trial *t) {
-  const double *start = run->best.result ? ambulo_result_x(run->best.result) : run->start;
-  ambulo_status status = solve_from(run, t, start);
-  if (status || is_optimal(t) || !run->best.result || ambulo__outer_over(run)) return status;
-  return solve_from(run, t, NULL);
+  const ambulo__outer_trial *best = &run->best;
+  ambulo_multipliers *multipliers = NULL;
+  if (!best->result) return solve_from(run, t, run->start, run->options.multipliers);
+  ambulo_status status =
+      ambulo_multipliers_of(best->problem, best->result, &run->allocator, &multipliers);
+  if (!status) status = solve_from(run, t, ambulo_result_x(best->result), multipliers);
+  ambulo_multipliers_free(multipliers);
+  if (status || is_optimal(t) || ambulo__outer_over(run)) return status;
+  return solve_from(run, t, NULL, NULL);
 }
 
 /* a failure that is about the values, not about the run */

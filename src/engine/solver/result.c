@@ -1,5 +1,6 @@
 /* solver/result.c - memory of a result and access to it; the verdict that its audit supports, and
  * what is reported of the run that made it. */
+#include "method/multipliers.h"
 #include "solver/explain.h"
 
 #include <math.h>
@@ -69,6 +70,15 @@ const double *ambulo_result_rows(const ambulo_result *r) {
 const double *ambulo_result_multipliers(const ambulo_result *r) {
   return r->multiplier;
 }
+
+ambulo_status ambulo_multipliers_of(const ambulo_problem *problem, const ambulo_result *result,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_multipliers **multipliers) {
+  if (!problem || !result || !multipliers) return AMBULO_E_ARGUMENT;
+  return ambulo__multipliers_create(problem, result->multiplier, result->objective, allocator,
+                                    multipliers);
+}
+
 const ambulo_audit *ambulo_result_audit(const ambulo_result *r) {
   return &r->audit;
 }
@@ -201,10 +211,16 @@ static const double far_from_optimal = 1e-3;
 /* objective of a motion at rest, whose gradient is rounding and leads anywhere */
 static const double at_rest = 1e-15;
 
+/* 2: the rows hold; 1: at the nodes; 0: they do not */
+static int rank_of(ambulo_verdict verdict) {
+  if (ambulo_verdict_is_solution(verdict)) return 2;
+  return ambulo_verdict_is_solution(ambulo__verdict_at_nodes(verdict));
+}
+
 int ambulo__result_is_better(const ambulo_result *one, const ambulo_result *other) {
-  int holds = ambulo_verdict_is_solution(one->verdict);
-  if (holds != ambulo_verdict_is_solution(other->verdict)) return holds;
-  if (holds) return one->objective < other->objective;
+  int rank = rank_of(one->verdict), of_other = rank_of(other->verdict);
+  if (rank != of_other) return rank > of_other;
+  if (rank > 0) return one->objective < other->objective;
   return ambulo__relative(&one->audit.violation) < ambulo__relative(&other->audit.violation);
 }
 

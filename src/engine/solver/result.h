@@ -78,8 +78,8 @@ void ambulo__report_faults(const ambulo__run *run, ambulo_result *result,
 void ambulo__report_families(const ambulo_result *result, double tolerance,
                              ambulo_diagnostics *diagnostics);
 
-/* 1 when `one` is the better: it alone holds its rows; or both do and its objective is lower; or
- * none does and its violation is smaller. */
+/* 1 when `one` is the better: it alone holds its rows, or alone at the nodes; or both do and its
+ * objective is lower; or none does and its violation is smaller. */
 int ambulo__result_is_better(const ambulo_result *one, const ambulo_result *other);
 
 /* 1 where a second look may help: the rows hold and the KKT residual is large, or they do not and

@@ -39,6 +39,7 @@ typedef struct ambulo__session {
   ambulo__candidates candidates;
   const double *start; /* the caller's; NULL: zero */
   int from_zero, explains;
+  int beside; /* the next attempt begins with the multipliers of the options */
   const char *method, *nlopt, *note;
 } ambulo__session;
 
@@ -52,6 +53,13 @@ ambulo_status ambulo__session_finish(ambulo__session *session);
 /* Frees what a failed call leaves, hands over the result of a good one. */
 ambulo_status ambulo__session_end(ambulo__session *session, ambulo_status status,
                                   ambulo_result **result);
+
+/* A solve from one start, or from zero (NULL). explains = 0: without second looks and explanation.
+ * (attempts.c) */
+ambulo_status ambulo__solve_once(const ambulo_problem *problem, const ambulo_options *options,
+                                 const double *start, int explains,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo_result **result);
 
 /* -------------------------------------------------------------- candidates */
 

@@ -1,16 +1,4 @@
-/* solver/solve.c - ambulo_solve: which method, from which start, and which point is the best.
- *
- *   usually          NLopt's AUGLAG on the equalities' surface           (method/pipeline.c),
- *                    from coarser grids when it starts at zero           (method/refine.c)
- *   slsqp            NLopt's SLSQP on every row: asked for, or for rows
- *                    that span the grid                                  (method/slsqp.c)
- *
- * From a start of the caller: a rough one is smoothed first (method/refine.c); where it leads to no
- * solution the solver tries its own, zero, before it explains anything; and a result is never worse
- * than a start that was valid: of all points the best is kept (session.c).
- *
- * Where the own start leads to a point that holds its rows and is far from optimal, or to a near
- * miss that no contradiction explains, SECOND_STARTS starts are a second look.
+/* solver/solve.c - ambulo_solve: from the caller's start, or from one or several of the solver's.
  *
  * From several starts: each is solved on a coarse grid, and the best end is a start on the
  * problem's own. So is start 0, the start pose at rest, whatever it came to on the coarse grid: the
@@ -27,10 +15,13 @@
  * Two ends are of one valley when their objectives differ by at most .1 % and their control points
  * by .05 rad or m, root mean square.
  *
- * Reading order: solve.c, session.h, session.c, result.h, audit.c, result.c; between the nodes:
- * dense.h, dense_grid.c, dense_samples.c, dense_cure.c, dense_audit.c; why there is no solution:
- * explain.h, explain.c, elastic.c, relax.c, suggest.c, suggest_feet.c, suggest_forces.c, advice.c;
- * derivatives with the numbers of a problem: sensitivity.h, parameters.c, numbers_walk.c,
+ * Where the own start leads to a point that holds its rows and is far from optimal, or to a near
+ * miss that no contradiction explains, SECOND_STARTS starts are a second look.
+ *
+ * Reading order: solve.c, session.h, attempts.c, session.c, result.h, audit.c, result.c; between
+ * the nodes: dense.h, dense_grid.c, dense_samples.c, dense_cure.c, dense_audit.c; why there is no
+ * solution: explain.h, explain.c, elastic.c, relax.c, suggest.c, suggest_feet.c, suggest_forces.c,
+ * advice.c; derivatives with the numbers of a problem: sensitivity.h, parameters.c, numbers_walk.c,
  * numbers_body.c, numbers_task.c, differences.c, sensitivities.c; free numbers and finer grids:
  * free_search.h, free_trial.c, free_search.c, free_refined.c.
  */
@@ -38,117 +29,15 @@
 
 #include "base/diagnostics.h"
 #include "base/machine.h"
-#include "contact/row_families.h"
-#include "method/pipeline.h"
-#include "method/refine.h"
-#include "method/slsqp.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
-static const double near_rows = 1e-3;                       /* relative to their sizes */
 static const double amplitude = 0.15, most_amplitude = 0.3; /* of a range; rad, m */
 static const double like_objective = 1e-3, like_points = 0.05;
 enum { LEAST_INTERVALS = 12, LEAST_SPLINE = 6, SECOND_STARTS = 3 };
-
-/* ------------------------------------------------------------------- one start */
-
-/* the coarse grids led astray: once more from zero; x stays if that is no better */
-static ambulo_status solve_again(ambulo__session *s, double *x) {
-  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
-  size_t n = (size_t)s->problem->variables;
-  double *other = ambulo__alloc(&a, n, sizeof *other);
-  if (!other) return AMBULO_E_MEMORY;
-  ambulo__start_pose(s->problem, other);
-  ambulo_ending before = s->run.ending;
-  double violation = ambulo__violation_at(s->engine, x);
-  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__FAR, other);
-  if (!status && ambulo__violation_at(s->engine, other) < violation) {
-    memcpy(x, other, n * sizeof *x);
-  } else {
-    ambulo__run_end(&s->run, before);
-  }
-  ambulo__free(&a, other);
-  return status;
-}
-
-static ambulo__stage stage_of(ambulo__session *s, const double *x) {
-  int near = !s->from_zero && ambulo__violation_at(s->engine, x) <= near_rows;
-  return near ? AMBULO__NEAR : AMBULO__FAR;
-}
-
-static ambulo_status solve_by_pipeline(ambulo__session *s) {
-  const ambulo_options *o = s->run.options;
-  double *x = s->result->x;
-  int levels = 0;
-  ambulo_status status = AMBULO_OK;
-  s->method = "NLopt's AUGLAG with LBFGS";
-  s->run.stage = "coarse grids";
-  if (s->from_zero && o->continuation) status = ambulo__refine(s->engine, s->allocator, x, &levels);
-  s->run.stage = "solve";
-  if (!status) status = ambulo__pipeline(s->engine, stage_of(s, x), x);
-  if (!status && levels > 0 && !s->run.stopped &&
-      !(ambulo__violation_at(s->engine, x) <= o->feasibility_tolerance))
-    status = solve_again(s, x);
-  return status;
-}
-
-static ambulo_status solve_problem(ambulo__session *s) {
-  s->nlopt = NULL;
-  if (s->run.options->algorithm != AMBULO_SLSQP && s->engine->setup->rows->regular)
-    return solve_by_pipeline(s);
-  s->method = "NLopt's SLSQP, whitened";
-  return ambulo__solve_slsqp(s->engine, s->diagnostics, s->result->x, &s->nlopt);
-}
-
-/* an attempt from where result->x stands; what it finds joins the candidates */
-static ambulo_status attempt(ambulo__session *s) {
-  ambulo_status status = solve_problem(s);
-  if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
-  if (!status) ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
-  return status;
-}
-
-/* from zero; or from the caller's start, and from zero when that leads nowhere */
-static ambulo_status search(ambulo__session *s) {
-  double *x = s->result->x;
-  ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
-  if (status) return status;
-  if (s->start) {
-    int smoothed = 0;
-    ambulo__candidates_offer_start(&s->candidates, s->engine, x);
-    status = ambulo__smooth_start(s->engine, x, &smoothed);
-  }
-  if (!status) status = attempt(s);
-  if (status) return status;
-  if (s->start && !ambulo__candidates_solved(&s->candidates) && !ambulo__run_over(&s->run)) {
-    ambulo__start_pose(s->problem, x);
-    s->from_zero = 1;
-    s->note = "; from zero, since the given start led to no solution";
-    status = attempt(s);
-    if (status) return status;
-  }
-  if (ambulo__candidates_take(&s->candidates, x))
-    s->note = "; what it found was worse than the given start, which is returned";
-  return AMBULO_OK;
-}
-
-/* explains = 0: without second looks and explanation */
-static ambulo_status solve_once(const ambulo_problem *problem, const ambulo_options *options,
-                                const double *start, int explains,
-                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                ambulo_result **result) {
-  ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
-  s.errors = ambulo_diagnostics_error_count(diagnostics);
-  s.explains = explains;
-  ambulo_status status = ambulo__session_begin(&s, options, start);
-  if (!status && s.engine) status = search(&s);
-  if (!status) status = ambulo__session_finish(&s);
-  return ambulo__session_end(&s, status, result);
-}
 
 typedef struct ambulo__valleys {
   ambulo_starts shown;
@@ -264,7 +153,8 @@ static ambulo_status run(search_of_starts *s) {
     options.starts = options.dense_samples = 1;
     options.time_limit = time_left(s);
     fill_start(s->problem, k, x);
-    status = solve_once(s->problem, &options, k ? x : NULL, 0, &s->allocator, NULL, &result);
+    status =
+        ambulo__solve_once(s->problem, &options, k ? x : NULL, 0, &s->allocator, NULL, &result);
     if (!status) status = book(s, k, result);
     stopped = !status && is_stopped(result);
     ambulo_result_free(result);
@@ -328,7 +218,8 @@ static ambulo_status answer_from(const search_of_starts *s, const ambulo_problem
   if (s->valleys) options.time_limit = time_left(s);
   out->messages = ambulo_diagnostics_create(&s->allocator);
   if (!out->messages) return AMBULO_E_MEMORY;
-  return solve_once(problem, &options, start, 1, &s->allocator, out->messages, &out->result);
+  return ambulo__solve_once(problem, &options, start, 1, &s->allocator, out->messages,
+                            &out->result);
 }
 
 /* from the other starts' best: where that is better, it changes places with the own one */
@@ -384,6 +275,10 @@ static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambu
   return AMBULO_OK;
 }
 
+const ambulo_starts *ambulo_result_starts(const ambulo_result *result) {
+  return result && result->valleys ? &result->valleys->shown : NULL;
+}
+
 ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *options,
                            const double *start, const ambulo_allocator *allocator,
                            ambulo_diagnostics *diagnostics, ambulo_result **result) {
@@ -392,9 +287,5 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   ambulo_status status = ambulo__options_own(problem, options, diagnostics, &own);
   if (status) return status;
   if (!start) return solve_from_starts(problem, &own, allocator, diagnostics, result);
-  return solve_once(problem, &own, start, 1, allocator, diagnostics, result);
-}
-
-const ambulo_starts *ambulo_result_starts(const ambulo_result *result) {
-  return result && result->valleys ? &result->valleys->shown : NULL;
+  return ambulo__solve_once(problem, &own, start, 1, allocator, diagnostics, result);
 }

@@ -231,6 +231,7 @@ static ambulo_status read_document(reader *r, double *x) {
   ambulo__yaml_expect(root, "trajectory");
   ambulo__yaml_expect(root, "coordinates");
   ambulo__yaml_expect(root, "control_points");
+  ambulo__yaml_expect(root, "multipliers"); /* solution_multipliers.c */
   ambulo__yaml_close(root);
   r->column = ambulo__alloc(&r->allocator, (size_t)r->problem->coordinates, sizeof *r->column);
   if (!r->column) return AMBULO_E_MEMORY;

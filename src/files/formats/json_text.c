@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static void append_string(ambulo__text_buffer *text, const char *value) {
+void ambulo__json_quote(ambulo__text_buffer *text, const char *value) {
   ambulo__text_append_char(text, '"');
   for (const char *c = value; *c; c++) {
     unsigned char byte = (unsigned char)*c;
@@ -31,7 +31,7 @@ static void begin_value(ambulo__json *json, const char *key) {
   }
   json->first = 0;
   if (!key) return;
-  append_string(json->text, key);
+  ambulo__json_quote(json->text, key);
   ambulo__text_append(json->text, ": ");
 }
 
@@ -53,7 +53,7 @@ void ambulo__json_close(ambulo__json *json, char bracket) {
 void ambulo__json_text(ambulo__json *json, const char *key, const char *value) {
   begin_value(json, key);
   if (value) {
-    append_string(json->text, value);
+    ambulo__json_quote(json->text, value);
   } else {
     ambulo__text_append(json->text, "null");
   }

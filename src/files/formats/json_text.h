@@ -18,6 +18,8 @@ void ambulo__json_number(ambulo__json *json, const char *key, double value);
 void ambulo__json_integer(ambulo__json *json, const char *key, long long value);
 /* 16 hexadecimal digits, as a text. */
 void ambulo__json_hash(ambulo__json *json, const char *key, unsigned long long value);
+/* A text in quotes, with its escapes; YAML reads it alike. */
+void ambulo__json_quote(ambulo__text_buffer *text, const char *value);
 /* A value that is JSON already. */
 void ambulo__json_raw(ambulo__json *json, const char *key, const char *value);
 

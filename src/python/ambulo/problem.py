@@ -338,7 +338,8 @@ class Problem(Owner):
               interrupt: str = "keep", options: Optional[records.Options] = None, **settings) -> "Result":
         """Finds the motion; returns a Result, whatever its verdict.
 
-        ``start``      unknowns to begin at; None: zero
+        ``start``      unknowns to begin at; None: zero. A Result or the path of a solution.yaml
+                       bring their multipliers: beside a solved problem that takes a few iterations
         ``progress``   a function that is called with a Progress at every iteration and at least ten
                        times a second in between, and stops the solve by returning something true;
                        True prints a line

@@ -1,11 +1,12 @@
 """Solves: options, progress, interruption, and what becomes of exceptions meanwhile."""
 
+import os
 import sys
 
 import numpy
 
 from . import _records as records
-from ._native import Call, Handle, ffi, keep_exception, lib, pending, take_pending, warn
+from ._native import Call, Handle, ffi, keep_exception, lib, path_of, pending, take_pending, warn
 from .errors import AmbuloError
 from .mechanics import array_of, doubles
 from .records import Carrier, from_c, usual_struct
@@ -67,8 +68,38 @@ class Run:
         raise stopped
 
 
-def start_of(problem, start):
-    return NULL if start is None else doubles(problem._point(start))
+def multipliers_handle(make):
+    """What `make(out)` leaves in an ambulo_multipliers **; None where it leaves none."""
+    out = ffi.new("ambulo_multipliers **")
+    make(out)
+    return Handle(out[0], lib.ambulo_multipliers_free) if out[0] else None
+
+
+def start_of(problem, start, run):
+    """The unknowns to begin at; run.options get the multipliers of a Result or a file."""
+    from .result import Result
+
+    if start is None:
+        return NULL
+    multipliers = None
+    if isinstance(start, Result):
+        with Call() as call:
+            multipliers = multipliers_handle(lambda out: call(lib.ambulo_multipliers_of(
+                start.problem._pointer, start._pointer, NULL, out)))
+        x = start.x
+        if x.size != problem.variable_count:
+            x = start.problem.transfer(x, problem)
+    elif isinstance(start, (str, os.PathLike)):
+        x = problem.load_solution(start, stretch=True)
+        with Call() as call:
+            multipliers = multipliers_handle(lambda out: call(lib.ambulo_solution_multipliers(
+                path_of(start), problem._pointer, lib.AMBULO_ENDS_FREE, NULL, call.messages, out)))
+    else:
+        x = start
+    if multipliers:
+        run.options.multipliers = multipliers.pointer
+        run.multipliers = multipliers
+    return doubles(problem._point(x))
 
 
 def solve(problem, start, progress, interrupt, options, settings):
@@ -76,7 +107,7 @@ def solve(problem, start, progress, interrupt, options, settings):
 
     run = Run(problem, options, settings, progress, interrupt)
     problem = problem._twin()  # the caller's may be closed meanwhile
-    out, first = ffi.new("ambulo_result **"), start_of(problem, start)
+    out, first = ffi.new("ambulo_result **"), start_of(problem, start, run)
     with Call() as call:
         status = lib.ambulo_solve(problem._pointer, run.options, first, NULL, call.messages, out)
         return run.finish(call, status, lambda call: Result(problem, out[0], call.list()))
@@ -89,7 +120,7 @@ def solve_refined(problem, start, progress, interrupt, options, settings):
     run = Run(problem, options, settings, progress, interrupt)
     problem = problem._twin()
     out, finer = ffi.new("ambulo_result **"), ffi.new("ambulo_problem **")
-    first = start_of(problem, start)
+    first = start_of(problem, start, run)
 
     def make(call):
         last = problem
@@ -167,7 +198,7 @@ def solve_parameters(problem, parameters, at, start, progress, interrupt, option
         if at is not None:
             struct.problem_at = run.carrier.keep(problem_at(problem, at, len(parameters.items), kept))
     out, best = ffi.new("ambulo_result **"), ffi.new("ambulo_problem **")
-    struct.start = first = start_of(problem, start)
+    struct.start = first = start_of(problem, start, run)
 
     def make(call):
         handle = Handle(best[0], lib.ambulo_problem_free, problem._held, kept)
