@@ -7,7 +7,7 @@
 
 #include <dirent.h>
 
-enum { MOST = 64, TEXT = 512, AT_ONCE = 8 };
+enum { MOST = 128, TEXT = 512, AT_ONCE = 16 };
 
 /* "name=value" of numbers and of those that move along */
 typedef struct settings {

@@ -322,6 +322,8 @@ static void flights_are_ballistic(void **state) {
   (void)state;
   static const char *const names[] = {"jump_landing", "hop", "skip"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    if (i == 0 && !getenv("AMBULO_LONG"))
+      continue; /* a flight as long is a_jump_goes_down_first's */
     run r = solve_run(names[i], NULL);
     momenta_are_those_of_a_body_in_flight(&r);
     free_run(&r);
