@@ -195,8 +195,8 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
     ambulo_contact_mode mode = contact->mode;
     const ambulo_point *heel = &s->model->points[foot->heel_center];
     const ambulo_point *toe = &s->model->points[foot->toe_center];
-    const ambulo_point *ends[2] = {ambulo__mode_is_on_toes((int)mode) ? toe : heel,
-                                   ambulo__mode_is_on_heel((int)mode) ? heel : toe};
+    const ambulo_point *ends[2] = {ambulo__mode_is_on_toes(mode) ? toe : heel,
+                                   ambulo__mode_is_on_heel(mode) ? heel : toe};
     double page[2][2];
     int seen = on_page(s, ends[0]->link, ends[0]->position, t, page[0]);
     if (!on_page(s, ends[1]->link, ends[1]->position, t, page[1]) || !seen) continue;

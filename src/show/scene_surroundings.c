@@ -106,7 +106,7 @@ static void span(ambulo__json *json, const ambulo__stride *s, int effector,
   int patch = ambulo__effector_patch(s->model, effector);
   ambulo__json_open(json, NULL, '{');
   ambulo__json_text(json, "name", ambulo__effector_name(s->model, effector));
-  ambulo__json_text(json, "mode", ambulo__mode_of((int)contact->mode)->word);
+  ambulo__json_text(json, "mode", ambulo__mode_of(contact->mode)->word);
   ambulo__json_number(json, "from", from);
   ambulo__json_number(json, "to", to);
   if (patch >= 0) rest(json, s, patch, contact, 0.5 * (from + to));

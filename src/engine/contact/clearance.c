@@ -155,7 +155,7 @@ double ambulo__tip_drop(const ambulo_problem_definition *d, int foot, double tim
   int lands = air.to - air.from <= AMBULO__INSTANT; /* where the motion ends */
   int landing = landing_of(d, foot, air);
   if ((slope >= 0.0 && !lands) || !f->has_tip || landing < 0) return 0.0;
-  if (!ambulo__mode_is_on_toes((int)d->contacts[landing].mode) || !ambulo__contacts_are_level(d))
+  if (!ambulo__mode_is_on_toes(d->contacts[landing].mode) || !ambulo__contacts_are_level(d))
     return 0.0;
   ambulo__neutral_point(d->model, f->tip, tip);
   ambulo__neutral_point(d->model, f->toe_center, ball);

@@ -215,7 +215,7 @@ static roll roll_of_flat(const ambulo__stance *stance, double time) {
 }
 
 static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
-  if (ambulo__mode_is_flat((int)contact->mode)) return roll_of_flat(stance, time);
+  if (ambulo__mode_is_flat(contact->mode)) return roll_of_flat(stance, time);
   double along = place_of((int)contact->mode);
   return (roll){along, 1.0 - along, along};
 }
@@ -225,18 +225,17 @@ static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance,
 /* on the heel, of the time from strike to foot-flat; else 0 */
 static double rolled(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
   double rolling = contact->to - stance->from;
-  if (!ambulo__mode_is_on_heel((int)contact->mode) || !(rolling > 0.0) || isinf(rolling))
-    return 0.0;
+  if (!ambulo__mode_is_on_heel(contact->mode) || !(rolling > 0.0) || isinf(rolling)) return 0.0;
   return (time - stance->from) / rolling;
 }
 
 /* ends along forward, from the heel's foothold */
 static void box_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
                    double part_rolled, double box[2]) {
-  if (ambulo__mode_is_flat((int)contact->mode)) {
+  if (ambulo__mode_is_flat(contact->mode)) {
     box[0] = r->flat_pressure[0];
     box[1] = length + r->flat_pressure[1];
-  } else if (ambulo__mode_is_on_toes((int)contact->mode)) {
+  } else if (ambulo__mode_is_on_toes(contact->mode)) {
     box[0] = length + r->toe_pressure[0];
     box[1] = length + r->toe_pressure[1];
   } else {
@@ -289,8 +288,8 @@ static void load_foot(const ambulo_problem_definition *d, const ambulo__foot_out
   load->box[0] -= center;
   load->box[1] -= center;
   load->side = r->pressure_width;
-  if (outline->has_arcs && !ambulo__mode_is_flat((int)contact->mode))
-    load->arc = outline->arc[ambulo__mode_is_on_toes((int)contact->mode)];
+  if (outline->has_arcs && !ambulo__mode_is_flat(contact->mode))
+    load->arc = outline->arc[ambulo__mode_is_on_toes(contact->mode)];
 }
 
 /* (W.8) the contact of a slot */

@@ -69,8 +69,8 @@ int ambulo__is_strike(const ambulo_problem_definition *d, int foot, const double
 int ambulo__is_pitched(const ambulo_problem_definition *d, const ambulo_contact *contact,
                        const double *times, int nodes, int node) {
   const double *pitch = d->strike_pitch;
-  int lands = pitch[1] <= 0.0 ? ambulo__mode_is_on_toes((int)contact->mode)
-                              : ambulo__mode_is_on_heel((int)contact->mode);
+  int lands = pitch[1] <= 0.0 ? ambulo__mode_is_on_toes(contact->mode)
+                              : ambulo__mode_is_on_heel(contact->mode);
   return pitch[0] < pitch[1] && lands && ambulo__is_strike(d, contact->foot, times, nodes, node);
 }
 
@@ -79,8 +79,7 @@ static void pitch_range(const tube *t, const ambulo_contact *contact, double ran
   const ambulo__gait_context *context = t->context;
   const ambulo_problem_definition *d = context->definition;
   double o = d->orientation_tolerance;
-  int toe = ambulo__mode_is_on_toes((int)contact->mode),
-      heel = ambulo__mode_is_on_heel((int)contact->mode);
+  int toe = ambulo__mode_is_on_toes(contact->mode), heel = ambulo__mode_is_on_heel(contact->mode);
   range[0] = toe ? -most_heel_up : heel ? 0.0 : -o;
   range[1] = toe ? 0.0 : heel ? most_toes_up : o;
   if (!ambulo__is_pitched(d, contact, context->times, context->nodes, t->node)) return;
@@ -112,7 +111,7 @@ static void arc_rows(const tube *t, const ambulo_contact *contact,
                      const ambulo__contact_frame *frame) {
   const ambulo__gait_context *context = t->context;
   const ambulo_foot *foot = &context->model->feet[contact->foot];
-  int end = ambulo__mode_is_on_toes((int)contact->mode), point = t->outline->arc[end];
+  int end = ambulo__mode_is_on_toes(contact->mode), point = t->outline->arc[end];
   double ahead = t->outline->arc_ahead[end], radius = t->outline->radius[end], place[3];
   for (int i = 0; i < 3; i++)
     place[i] = frame->origin[i] + ahead * frame->forward[i] + radius * frame->up[i];
@@ -141,7 +140,7 @@ static void arc_rows(const tube *t, const ambulo_contact *contact,
 
 /* 1 if contact i holds an arc, on which the foot rolls */
 static int rolls(const tube *t, int i) {
-  return t->outline->has_arcs && !ambulo__mode_is_flat((int)t->contact[i]->mode);
+  return t->outline->has_arcs && !ambulo__mode_is_flat(t->contact[i]->mode);
 }
 
 /* 1 if the other contact of the node says what contact i says: the same point at the same place;
@@ -151,7 +150,7 @@ static int is_said(const tube *t, int i) {
   double place[3], other[3];
   if (t->contacts == 1) return 0;
   if (rolls(t, i) || rolls(t, 1 - i))
-    return rolls(t, i) && ambulo__mode_is_flat((int)t->contact[1 - i]->mode);
+    return rolls(t, i) && ambulo__mode_is_flat(t->contact[1 - i]->mode);
   return i > 0 &&
          ambulo__contact_point(d, t->outline, t->contact[i], place) ==
              ambulo__contact_point(d, t->outline, t->contact[0], other) &&
@@ -198,14 +197,13 @@ static void contact_rows(const tube *t) {
   for (int i = 0; i < t->contacts; i++) {
     t->table->before = t->before[i];
     place_rows(t, i);
-    on_toes &= ambulo__mode_is_on_toes((int)t->contact[i]->mode);
+    on_toes &= ambulo__mode_is_on_toes(t->contact[i]->mode);
   }
   pitch_bounds(t);
   t->table->before = t->before[0];
   toe_rows(t);
   if (!t->outline->moves_sideways) return;
-  t->table->before =
-      t->before[t->contacts > 1 && ambulo__mode_is_on_toes((int)t->contact[0]->mode)];
+  t->table->before = t->before[t->contacts > 1 && ambulo__mode_is_on_toes(t->contact[0]->mode)];
   double o = d->orientation_tolerance * (on_toes ? 2.0 : 1.0);
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, t->contact[0]);
   ambulo__linear yaw = ambulo__foot_yaw(t->context, foot, frame.left);

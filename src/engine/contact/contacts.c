@@ -39,7 +39,7 @@ const char *ambulo__effector_name(const ambulo_model *model, int effector) {
 }
 
 int ambulo__effector_is_known(const ambulo_model *model, const ambulo_contact *contact) {
-  if (ambulo__mode_is_of_patch((int)contact->mode))
+  if (ambulo__mode_is_of_patch(contact->mode))
     return contact->foot == -1 && contact->patch >= 0 && contact->patch < model->patch_count;
   return contact->foot >= 0 && contact->foot < model->foot_count;
 }

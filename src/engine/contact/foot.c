@@ -234,7 +234,7 @@ int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel) {
 int ambulo__contact_point(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
                           const ambulo_contact *contact, double place[3]) {
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, contact);
-  int on_toes = ambulo__mode_is_on_toes((int)contact->mode);
+  int on_toes = ambulo__mode_is_on_toes(contact->mode);
   double ahead = on_toes ? outline->length : 0.0;
   for (int i = 0; i < 3; i++) place[i] = frame.origin[i] + ahead * frame.forward[i];
   if (contact->foot < 0) return d->model->patches[contact->patch].point;

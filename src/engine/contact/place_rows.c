@@ -147,7 +147,7 @@ static void contact_rows(const ambulo__gait_context *context, int node,
   place_row(context, node, point, "forward", frame.forward, place, table);
   if (!outline->moves_sideways) return;
   place_row(context, node, point, "left", frame.left, place, table);
-  if (!ambulo__mode_is_flat((int)contact->mode)) return;
+  if (!ambulo__mode_is_flat(contact->mode)) return;
   int toe = context->model->feet[contact->foot].toe_center;
   place_row(context, node, toe, "heading", frame.left, place, table);
 }
@@ -157,7 +157,7 @@ static void contact_rows(const ambulo__gait_context *context, int node,
  */
 static int covers(const ambulo_contact *one, const ambulo_contact *other) {
   if (!ambulo__contacts_same_place(one, other)) return 0;
-  return ambulo__mode_is_flat((int)one->mode) || one->mode == other->mode;
+  return ambulo__mode_is_flat(one->mode) || one->mode == other->mode;
 }
 
 /* a contact that the other of the node's two covers has no rows of its own */

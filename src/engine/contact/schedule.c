@@ -20,7 +20,7 @@ static ambulo_status check_effector(const ambulo_problem_definition *d, int inde
   const ambulo_contact *c = &d->contacts[index];
   const char *model = ambulo_model_name(d->model);
   if (ambulo__effector_is_known(d->model, c)) return AMBULO_OK;
-  if (!ambulo__mode_is_of_patch((int)c->mode))
+  if (!ambulo__mode_is_of_patch(c->mode))
     return REFUSE(list, NULL, "contacts[%d]: no foot %d; the model '%s' has %d", index, c->foot,
                   model, ambulo_model_foot_count(d->model));
   if (c->foot != -1)
@@ -44,7 +44,7 @@ static ambulo_status check_contact(const ambulo_problem_definition *definition, 
   int effector = ambulo__effector_of(definition->model, c);
   const char *kind = ambulo__effector_kind(definition->model, effector);
   const char *name = ambulo__effector_name(definition->model, effector);
-  if (!ambulo__mode_of((int)c->mode)) {
+  if (!ambulo__mode_of(c->mode)) {
     return REFUSE(list, NULL,
                   "contacts[%d]: the mode of foot '%s' is %s (got %d); expected heel, flat or toe",
                   index, name, c->mode ? "unknown" : "not set", (int)c->mode);

@@ -229,7 +229,7 @@ static ambulo_status refuse_empty(const ambulo__gait_context *context, int node,
   for (int i = 0; i < context->model->foot_count; i++) {
     if (active[i] < 0) continue;
     foot = context->model->feet[i].name;
-    mode = ambulo__mode_of((int)definition->contacts[active[i]].mode)->posture;
+    mode = ambulo__mode_of(definition->contacts[active[i]].mode)->posture;
     loaded++;
   }
   if (loaded > 1) {

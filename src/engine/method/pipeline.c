@@ -75,7 +75,7 @@ ambulo_status ambulo__pipeline_of_set(ambulo__engine *e, ambulo__stage stage, do
   e->reached.value = HUGE_VAL;
   ambulo_status status = solve(e, stage, &stopping, x, &ending);
   int cut = e->run->stopped || ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_NLOPT;
-  if (!status && cut) ambulo__stopping_cut(&stopping, e, x);
+  if (!status && cut && !e->run->unpolished) ambulo__stopping_cut(&stopping, e, x);
   if (ending) ambulo__run_end(e->run, ending);
   return status;
 }

@@ -31,6 +31,7 @@ typedef struct ambulo__run {
   int breakdowns;       /* metrics that could not be factored, since then */
   ambulo_fault fault, first_fault; /* the first of those lately; of all */
   ambulo_nlopt_work nlopt;
+  int unpolished;    /* 1: what a limit cuts short stays as it is */
   int own_gradients; /* NLopt's multipliers are not those of mirror.h */
   double seconds_evaluate, seconds_linear;
   ambulo__history *history; /* NULL: none is kept */

@@ -96,7 +96,7 @@ typedef struct corner {
 static const ambulo_contact *loading(const ambulo_problem *p, const corner *c, int index) {
   if (index < 0) return NULL;
   const ambulo_contact *contact = &p->definition.contacts[index];
-  if (c->rolls && !ambulo__mode_is_flat((int)contact->mode)) return NULL;
+  if (c->rolls && !ambulo__mode_is_flat(contact->mode)) return NULL;
   return ambulo__corner_in_contact(contact->mode, c->is_heel) ? contact : NULL;
 }
 

@@ -38,7 +38,7 @@ static const ambulo_contact *contact_of(const ambulo__advice *a) {
   if (foot < 0 || a->row->node < 0) return NULL;
   int at = a->row->node * p->model->foot_count + foot, index = p->active[at];
   int before = p->before ? p->before[at] : index;
-  if (index < 0 || (before >= 0 && ambulo__mode_is_flat((int)p->definition.contacts[before].mode)))
+  if (index < 0 || (before >= 0 && ambulo__mode_is_flat(p->definition.contacts[before].mode)))
     index = before;
   return index < 0 ? NULL : &p->definition.contacts[index];
 }
@@ -138,7 +138,7 @@ static void contact_angle(const ambulo__advice *a) {
   const ambulo_problem_definition *d = &a->problem->definition;
   const ambulo_contact *contact = contact_of(a);
   int pitch = !strncmp(a->row->detail, "toes", 4), low = !strcmp(a->row->detail, "toes low");
-  int toe = contact && ambulo__mode_is_on_toes((int)contact->mode);
+  int toe = contact && ambulo__mode_is_on_toes(contact->mode);
   double bound = low ? -a->row->constant : a->row->constant;
   if (pitch && d->strike_pitch[0] < d->strike_pitch[1] &&
       fabs(bound - sin(d->strike_pitch[!low])) < 1e-9) {
@@ -147,7 +147,7 @@ static void contact_angle(const ambulo__advice *a) {
   }
   double wide = ambulo__outward(d->orientation_tolerance + a->room / (toe ? 2.0 : 1.0), 1);
   int fixed = pitch && contact &&
-              (!ambulo__mode_is_flat((int)contact->mode) ||
+              (!ambulo__mode_is_flat(contact->mode) ||
                fabs(fabs(bound) - d->orientation_tolerance) > 1e-12);
   ambulo__advice_say(a,
                      "the foot %s has to turn further at t = %.4g s than its contact lets it (%s, "

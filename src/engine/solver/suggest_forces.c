@@ -209,9 +209,9 @@ static void set_boxes(const ambulo__advice *a, double room) {
   if (modes == 0) return;
   int front = !strcmp(a->row->detail, "front"), back = !strcmp(a->row->detail, "back");
   for (int i = 0; i < modes; i++) {
-    double *box = ambulo__mode_is_flat((int)mode[i])      ? r.flat_pressure
-                  : ambulo__mode_is_on_toes((int)mode[i]) ? r.toe_pressure
-                                                          : r.heel_pressure;
+    double *box = ambulo__mode_is_flat(mode[i])      ? r.flat_pressure
+                  : ambulo__mode_is_on_toes(mode[i]) ? r.toe_pressure
+                                                     : r.heel_pressure;
     if (front) box[1] = ambulo__outward(box[1] + room, 1);
     if (back) box[0] = ambulo__outward(box[0] - room, 0);
   }

@@ -12,6 +12,7 @@
 ``Mechanics``            inverse dynamics of motions in arrays
 ``Problem``              what to minimize, subject to what; its solves
 ``Result``               the point that was found: verdict, audit, motion, sensitivities
+``Solver``               one problem again and again, from where it stands
 ``Motion``               arrays, a table, a picture
 ``inverse_of_file``      inverse dynamics of a measured motion
 ``compare``              a result or a measured motion against people
@@ -44,6 +45,7 @@ from .problem import Evaluation, Problem
 from .processes import program
 from .records import Enumeration, Record, from_c
 from .result import Result
+from .solver import Iterate, Solver
 from .tables import to_pandas
 
 __version__ = ffi.string(lib.ambulo_version()).decode()
@@ -60,7 +62,8 @@ def versions() -> dict:
 
 __all__ = [
     "AmbuloError", "AmbuloWarning", "Batch", "Enumeration", "Evaluation", "Fit", "FitReport",
-    "Gradient", "InverseDynamics", "InverseOfFile", "Jacobians", "MODELS", "Mechanics", "Message",
-    "Model", "Motion", "Problem", "Record", "Result", "Study", "StudyCase", "Verified", "callbacks",
-    "compare", "inverse_of_file", "plots", "program", "to_pandas", "versions",
+    "Gradient", "InverseDynamics", "InverseOfFile", "Iterate", "Jacobians", "MODELS", "Mechanics",
+    "Message", "Model", "Motion", "Problem", "Record", "Result", "Solver", "Study", "StudyCase",
+    "Verified", "callbacks", "compare", "inverse_of_file", "plots", "program", "to_pandas",
+    "versions",
 ] + _record_names

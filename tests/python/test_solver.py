@@ -1,0 +1,46 @@
+"""The solver object, and starts that bring multipliers."""
+
+import math
+
+import ambulo
+import numpy
+from support import REACH, Case
+
+
+class Solvers(Case):
+    def test_another_end(self):
+        """The same as a problem with that end, and a result of it."""
+        with ambulo.Problem.load(REACH) as problem:
+            solver = ambulo.Solver(problem, algorithm=ambulo.Algorithm.AUGLAG)
+        x, state = solver.iterate(150)
+        self.assertTrue(state.converged and state.feasible)
+        solver.set_end("shoulder", math.radians(-20), final=True)
+        solver.shift(0.02)
+        x, state = solver.iterate(150)
+        self.assertTrue(state.converged and state.feasible)
+        with ambulo.Problem.load(REACH, ["ends.final.shoulder=-20"]) as other:
+            self.assertAlmostEqual(state.objective / other.solve().objective, 1.0, 3)
+        result = solver.result()
+        self.assertTrue(result.is_solution)
+        self.close(result.x, x, 0.0)
+        first = solver.iterate(1)
+        self.assertLessEqual(first.state.iterations, 1)
+        with self.assertRaises(ambulo.AmbuloError):
+            solver.set_end(0, 0.0, order=2)
+        solver.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            solver.iterate()
+
+    def test_starts(self):
+        """A Result, a file and unknowns are starts."""
+        with ambulo.Problem.load(REACH) as problem:
+            result = problem.solve()
+            result.write(self.folder / "reach")
+            solver = ambulo.Solver(problem, algorithm=ambulo.Algorithm.AUGLAG)
+            for start in (result, self.folder / "reach" / "solution.yaml", result.x):
+                self.assertLessEqual(problem.solve(start).iterations, result.iterations)
+                solver.start(start)
+                x, state = solver.iterate(20)
+                self.assertAlmostEqual(state.objective / result.objective, 1.0, 3)
+            with self.assertRaises(ambulo.AmbuloError):
+                solver.start(numpy.full_like(result.x, numpy.nan))
