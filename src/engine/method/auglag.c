@@ -128,7 +128,7 @@ static void inner_ended(drive *s, double value) {
   ambulo__run *run = e->run;
   ambulo__trial_copy(last, &e->reached);
   memcpy(s->x, last->x, (size_t)e->setup->n * sizeof *s->x);
-  e->iterate.mu = ambulo__trust_damping(&s->trust, e->iterate.mu, value, last->objective);
+  e->iterate.mu = ambulo__trust_damping(&s->trust, e->iterate.mu, value, last);
   update_multipliers(s);
   ambulo__run_forgive(run);
   run->iterations++;

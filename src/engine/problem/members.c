@@ -356,6 +356,7 @@ static const ambulo__member options[] = {
     {INTEGER("solver.starts", starts, 1, AMBULO_MOST_STARTS, 1)},
     {BORROWED(progress)},
     {BORROWED(user)},
+    {BORROWED(multipliers)},
 };
 TABLE(NULL, options);
 #undef OF
