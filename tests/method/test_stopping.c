@@ -83,6 +83,7 @@ static void stalls_raise_the_bound(void **state) {
     if (s.penalty_limit != bound) bounds[++raised] = s.penalty_limit;
   }
   assert_int_equal(ending, AMBULO_ENDING_STALLED);
+  assert_int_equal(points, 1 + 3 * 6); /* a point that does not move at all */
   assert_int_equal(raised, 2);
   assert_close(bounds[1] / bounds[0], 10.0, 1e-12);
   assert_close(bounds[2] / bounds[0], 100.0, 1e-12);

@@ -159,10 +159,11 @@
 /* Points at the bound of the penalty without progress. 0 (never): 150 iterations for 65 where a
  * step is too long. T: stopping. */
 #define AMBULO__STALL 15
-/* Points without a change that end a solve whose gradient is not small; points without progress
- * that show that a coarse grid has no room for the rows, which is then left, and its multipliers
- * with it (2554 iterations over 48 problems; never: 3127); calls of NLopt without progress
- * (slsqp.c). x: free. T: stopping, refine, slsqp. */
+/* Points without a change that end a solve whose gradient is not small, or do not move at all at
+ * the bound of the penalty, which then rises (run at 3.03 m/s beside 3: 142 iterations, 114);
+ * points without progress that show that a coarse grid has no room for the rows, which is then
+ * left, and its multipliers with it (2554 iterations over 48 problems; never: 3127); calls of NLopt
+ * without progress (slsqp.c). x: free. T: stopping, refine, slsqp. */
 #define AMBULO__PATIENCE 6
 /* Relative change of f that is none; a hundred times as much is progress. x: free. Never: a torque
  * that is too weak takes 50 iterations, not 150. T: stopping. */

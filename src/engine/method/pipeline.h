@@ -62,10 +62,11 @@ void ambulo__balance_rows(ambulo__engine *engine, ambulo__stage stage, const dou
  *              room for what the rows ask
  */
 typedef struct ambulo__stopping {
-  int loose;                         /* a coarse grid that only starts the next one */
-  double objective, least_violation; /* at the last point; so far */
-  double first;                      /* f after the first inner solve */
+  int loose;                                    /* a coarse grid that only starts the next one */
+  double objective, violation, least_violation; /* at the last point; so far */
+  double first;                                 /* f after the first inner solve */
   int settled, since_better, points;
+  int still;            /* points in a row that did not move at all */
   int since_halved;     /* points since the violation had fallen by half */
   double halved;        /* violation then */
   double penalty_limit; /* bound on the penalty that the engine's rho does not pass */

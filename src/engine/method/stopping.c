@@ -37,6 +37,8 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
   int small = point->gradient_norm <= enough * fmax(1.0, fabs(point->objective));
   int near = violation <= fmax(tolerance, AMBULO__NEAR_VIOLATION);
   s->settled = near && steady ? s->settled + 1 : 0;
+  s->still = change == 0.0 && violation == s->violation ? s->still + 1 : 0;
+  s->violation = violation;
   if (s->points++ == 0) s->first = fabs(point->objective);
   s->objective = point->objective;
   s->since_better++;
@@ -59,7 +61,7 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
 static int raise_limit(ambulo__stopping *s) {
   if (s->penalty_limit >= AMBULO__PENALTY_LAST) return 1;
   s->penalty_limit *= AMBULO__PENALTY_STEP;
-  s->since_better = s->since_halved = 0;
+  s->since_better = s->since_halved = s->still = 0;
   return 0;
 }
 
@@ -73,7 +75,7 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, doub
     int idle = s->since_better > s->since_halved ? s->since_better : s->since_halved;
     return bound && idle > AMBULO__PATIENCE ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE;
   }
-  int stalled = bound && s->since_better > AMBULO__STALL;
+  int stalled = bound && (s->since_better > AMBULO__STALL || s->still >= AMBULO__PATIENCE);
   double reach = stalled ? AMBULO__ROUGH_VIOLATION : AMBULO__NEAR_VIOLATION;
   if ((settled || stalled) && violation <= reach && ambulo__polish(e, stalled, x))
     return settled ? settled : AMBULO_ENDING_STALLED;
