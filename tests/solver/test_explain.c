@@ -299,7 +299,7 @@ static void a_cap_is_to_be_raised(void **state) {
   static const char *const caps[][2] = {
       {"solver.maximum_iterations=1", "solver.maximum_iterations=150"},
       {"solver.maximum_evaluations=70", "solver.maximum_evaluations=20000"},
-      {"solver.time_limit=0.01", "solver.time_limit=0.02"}};
+      {"solver.time_limit=0.004", "solver.time_limit=0.008"}};
   static const char *const names[] = {"step_too_long", "support_too_narrow"};
   for (int k = 0; k < 6; k++) {
     ambulo_problem *problem = NULL;
@@ -330,7 +330,7 @@ static void what_all_but_holds_is_no_conflict(void **state) {
   const ambulo_explanation *e = ambulo_result_explanation(result);
   double left = ambulo_result_audit(result)->violation.worst, asked = 0.0;
   if (e && left < 1e-6) {
-    assert_int_equal(verdict_at_nodes(result), AMBULO_LIMIT_REACHED);
+    assert_true(ambulo_result_verdict(result) != AMBULO_INFEASIBLE);
     assert_int_equal(e->conflict_count, 0);
     assert_int_equal(e->on_limit_count, 0);
     assert_int_equal(e->setting_count, 1);
