@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "cli/body.h"
@@ -29,6 +30,7 @@ typedef struct job {
   double *start;                          /* NULL: zero */
   ambulo_multipliers *multipliers;        /* of the start; NULL: none */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
+  double from_step;   /* s that the one step took which the start repeats; < 0: it is none */
   double time_limit;  /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
   ambulo__cli_watch watch;
@@ -94,7 +96,7 @@ static int read_options(job *j) {
   j->report = ambulo_report_options_default();
   j->report.overwrite = ambulo__cli_flag(input, "force");
   if (ambulo__cli_shipped_file("norms", j->norms, sizeof j->norms)) j->report.norms = j->norms;
-  j->time_limit = -1.0;
+  j->time_limit = j->from_step = -1.0;
   if (!ambulo__cli_number(input, "time-limit", 0.0, 1e9, &j->time_limit) ||
       !ambulo__cli_integer(input, "samples", 2, 1000000, &j->report.samples))
     return 2;
@@ -165,6 +167,8 @@ static ambulo_status print_outcome(job *j, int written) {
   int quiet = ambulo__cli_flag(j->input, "quiet");
   if (ambulo__cli_flag(j->input, "json")) return print_json(j);
   if (!quiet) ambulo__cli_print_result(j->problem, j->result);
+  if (!quiet && j->from_step >= 0.0)
+    printf("start        from one step, repeated; %.3f s\n", j->from_step);
   if (j->sensitivities) ambulo__cli_print_sensitivities(j->sensitivities);
   if (quiet) return AMBULO_OK;
   if (written) {
@@ -247,16 +251,47 @@ static void give_up_sensitivities(void *user, const ambulo_progress *last, ambul
   end_deaf(&j, AMBULO_OK);
 }
 
+static void watch_solve(job *j, double limit) {
+  j->watch = (ambulo__cli_watch){
+      .give_up = give_up_solve, .user = j, .problem = j->problem, .limit = limit};
+  ambulo__cli_watch_begin(&j->watch);
+}
+
+static double seconds_now(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* a gait of several steps without a start has that of one, if it can; the limit is of both */
+static ambulo_status start_from_step(job *j, ambulo_options *options) {
+  if (ambulo__cli_value(j->input, "start")) return AMBULO_OK;
+  double *x = calloc((size_t)ambulo_problem_variable_count(j->problem), sizeof *x);
+  if (!x) return AMBULO_E_MEMORY;
+  double began = seconds_now();
+  watch_solve(j, options->time_limit);
+  ambulo_status status = ambulo_start_from_step(j->problem, options, NULL, x, &j->multipliers);
+  ambulo__cli_watch_end(&j->watch);
+  double taken = seconds_now() - began;
+  if (options->time_limit > 0.0) options->time_limit = fmax(1e-3, options->time_limit - taken);
+  if (!j->multipliers) {
+    free(x);
+    return status;
+  }
+  j->start = x;
+  j->from_step = taken;
+  return AMBULO_OK;
+}
+
 static ambulo_status solve(job *j) {
   ambulo_options options = solver_options(j);
-  options.multipliers = j->multipliers;
   options.progress = show_progress;
   options.user = j;
   ambulo__cli_catch_stops(1);
-  j->watch = (ambulo__cli_watch){
-      .give_up = give_up_solve, .user = j, .problem = j->problem, .limit = options.time_limit};
-  ambulo__cli_watch_begin(&j->watch);
-  ambulo_status status;
+  ambulo_status status = start_from_step(j, &options);
+  if (status) return status;
+  options.multipliers = j->multipliers;
+  watch_solve(j, options.time_limit);
   if (options.refine || ambulo__cli_flag(j->input, "refine")) {
     status = solve_refined(j, &options);
   } else if (ambulo_problem_parameters(j->problem).count > 0) {
@@ -317,7 +352,8 @@ static const ambulo__cli_option options[] = {
     {"output", 'o', "DIR", "result folder (default: <problem>_result)"},
     {"set", 0, "path=value",
      "replace a value of the problem file, e.g. time.intervals=36;\nmay be repeated"},
-    {"start", 0, "zero|FILE", "start from zero (default) or from a solution.yaml"},
+    {"start", 0, "zero|FILE",
+     "start from zero (default; several steps: from one) or from a solution.yaml"},
     {"repeat", 0, "mirrored|periodic",
      "repeat the start over the duration: it is one step, followed by its\nmirror image, or one "
      "stride"},

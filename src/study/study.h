@@ -147,6 +147,9 @@ ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,
                                     const ambulo__yaml_node *node);
 const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
+/* The axis whose numbers only rise or only fall, with most values, of as many the last one, which
+ * varies fastest; -1: none. */
+int ambulo__sweep_find_chain(const ambulo_sweep *sweep);
 ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
 /* Its place in the sweep file or the table. */
 ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);

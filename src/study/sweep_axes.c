@@ -55,6 +55,33 @@ int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name) {
   return -1;
 }
 
+/* number k of an axis, as the file has it; 0: a word */
+static int number_of(const ambulo__axis *axis, int k, double *number) {
+  const char *text = strchr(axis->value[k].override, '=') + 1;
+  return ambulo__parse_double(text, strlen(text), number);
+}
+
+/* numbers that only rise, or only fall */
+static int is_ordered(const ambulo__axis *axis) {
+  double before = 0.0, next = 0.0;
+  int rising = 0, falling = 0;
+  for (int k = 0; k < axis->count; k++) {
+    if (!number_of(axis, k, &next)) return 0;
+    rising += k > 0 && next > before;
+    falling += k > 0 && next < before;
+    before = next;
+  }
+  return axis->count > 1 && (rising == axis->count - 1 || falling == axis->count - 1);
+}
+
+int ambulo__sweep_find_chain(const ambulo_sweep *s) {
+  int found = -1;
+  for (int i = 0; i < s->axes; i++)
+    if (is_ordered(&s->axis[i]) && (found < 0 || s->axis[i].count >= s->axis[found].count))
+      found = i;
+  return found;
+}
+
 static ambulo_status make_room(const ambulo_sweep *sweep, ambulo__axis *axis, ambulo__spot spot) {
   const ambulo_allocator *a = &sweep->allocator;
   if (axis->count == AMBULO__AXIS_VALUES)

@@ -150,18 +150,22 @@ static void read_limits(ambulo_sweep *s, const ambulo__yaml_node *root) {
   if (limits) ambulo__yaml_close(limits);
 }
 
-/* start_from: zero (default), or neighbour together with along: AXIS */
+/* start_from: zero (default), or neighbour, along an axis that is named, or found */
 static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) {
   static const char *const starts[] = {"zero", "neighbour"};
-  int start = ambulo__yaml_choice(ambulo__yaml_get(root, "start_from"), starts, 2, 0);
+  const ambulo__yaml_node *from = ambulo__yaml_get(root, "start_from");
+  int start = ambulo__yaml_choice(from, starts, 2, 0);
   s->front.neighbour = start;
   if (ambulo__yaml_get(root, "front")) start = 0; /* the next point of the front is the neighbour */
-  const ambulo__yaml_node *chain =
-      start ? ambulo__yaml_require(root, "along") : ambulo__yaml_get(root, "along");
+  const ambulo__yaml_node *chain = ambulo__yaml_get(root, "along");
   const char *name = ambulo__yaml_text(chain);
-  if (!start || !name[0]) return AMBULO_OK;
-  s->chain_axis = ambulo__sweep_find_axis(s, name);
+  if (!start || (chain && !name[0])) return AMBULO_OK;
+  s->chain_axis = chain ? ambulo__sweep_find_axis(s, name) : ambulo__sweep_find_chain(s);
   if (s->chain_axis >= 0) return AMBULO_OK;
+  if (!chain)
+    return ambulo__yaml_error(from, AMBULO_E_SCHEMA, "'along' names the axis of the chains",
+                              "no axis has numbers in order; expected one whose values only rise "
+                              "or only fall");
   return ambulo__yaml_error(chain, AMBULO_E_SCHEMA, NULL,
                             "unknown axis (got '%s'); expected the name of an axis", name);
 }

@@ -88,6 +88,32 @@ static void a_chain_follows_its_axis(void **state) {
   ambulo_sweep_free(s);
 }
 
+/* of n and T in that order; a case continues the one `apart` places before it, `linked` do */
+static void chain_found(void **state, const char *n, const char *T, int apart, int linked) {
+  char text[300];
+  (void)snprintf(text, sizeof text,
+                 "axes:\n  - {key: time.intervals, values: %s}\n  - {key: %s}\n"
+                 "start_from: neighbour\n",
+                 n, T);
+  ambulo_sweep *s = loaded(state, text);
+  for (int k = 0; k < ambulo_sweep_case_count(s); k++) {
+    int previous = case_of(s, k).previous;
+    if (previous >= 0) assert_int_equal(k - previous, apart);
+    linked -= previous >= 0;
+  }
+  assert_int_equal(linked, 0);
+  ambulo_sweep_free(s);
+}
+
+static void a_chain_is_found(void **state) {
+  chain_found(state, "[8, 10, 12]", "time.duration, values: [1, 2]", 2, 4); /* the longer one */
+  chain_found(state, "[8, 10]", "time.duration, values: [2, 1]", 1, 2);     /* else the last */
+  chain_found(state, "[8, 10]", "time.duration, values: [1, 3, 2]", 3, 3);  /* out of order */
+  chain_found(state, "[8, 10]", "name, values: [a, b, c]", 3, 3);           /* words */
+  refused(state, "axes:\n  - {key: time.intervals, values: [8]}\nstart_from: neighbour\n",
+          "no axis has numbers in order");
+}
+
 static void a_table_is_one_axis(void **state) {
   scratch_write(scratch_path(state, "t.csv"),
                 "# durations\ntime.duration,time.intervals\n1,8\n1.5,10\n");
@@ -352,6 +378,7 @@ int main(void) {
       TEST(a_filter_renames_nothing),
       TEST(zip_goes_side_by_side),
       TEST(a_chain_follows_its_axis),
+      TEST(a_chain_is_found),
       TEST(a_table_is_one_axis),
       TEST(a_latin_hypercube_uses_each_stratum_once),
       TEST(explicit_cases_come_last),

@@ -113,6 +113,18 @@ ambulo_solution_multipliers(const char *path, const ambulo_problem *problem, amb
                             const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                             ambulo_multipliers **multipliers);
 
+/* The start of a gait of several steps from one of them (of unlike steps: from two), which is
+ * solved with these options and repeated. It takes half of a time limit at most; its progress has
+ * the stage "one step". *multipliers becomes NULL, and x [variable_count] is not touched, where
+ * there is no such start: no `gait` of several steps that repeats, references, tubes, reaches,
+ * obstacles, loads or profiles over time, several starts, fewer than 8 intervals a step, or a step
+ * without a solution. Errors: E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_start_from_step(const ambulo_problem *problem,
+                                                                 const ambulo_options *options,
+                                                                 const ambulo_allocator *allocator,
+                                                                 double *x,
+                                                                 ambulo_multipliers **multipliers);
+
 /* --------------------------------------------------------------------- files */
 
 /* What a YAML file is, by its key `kind`. */

@@ -338,8 +338,10 @@ class Problem(Owner):
               interrupt: str = "keep", options: Optional[records.Options] = None, **settings) -> "Result":
         """Finds the motion; returns a Result, whatever its verdict.
 
-        ``start``      unknowns to begin at; None: zero. A Result or the path of a solution.yaml
-                       bring their multipliers: beside a solved problem that takes a few iterations
+        ``start``      unknowns to begin at. A Result or the path of a solution.yaml bring their
+                       multipliers: beside a solved problem that takes a few iterations. "zero", or
+                       None: zero, but a gait of several steps with None from one of them, solved
+                       first and repeated
         ``progress``   a function that is called with a Progress at every iteration and at least ten
                        times a second in between, and stops the solve by returning something true;
                        True prints a line

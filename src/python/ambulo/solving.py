@@ -2,6 +2,7 @@
 
 import os
 import sys
+import time
 
 import numpy
 
@@ -75,14 +76,30 @@ def multipliers_handle(make):
     return Handle(out[0], lib.ambulo_multipliers_free) if out[0] else None
 
 
+def start_from_step(problem, run):
+    """Unknowns, and multipliers or None; what it takes is taken off the time limit."""
+    x, began = numpy.zeros(problem.variable_count), time.monotonic()
+    with Call() as call:
+        multipliers = multipliers_handle(lambda out: call(lib.ambulo_start_from_step(
+            problem._pointer, run.options, NULL, doubles(x), out)))
+    if run.options.time_limit > 0:
+        left = run.options.time_limit - (time.monotonic() - began)
+        run.options.time_limit = max(1e-3, left)
+    return x, multipliers
+
+
 def start_of(problem, start, run):
-    """The unknowns to begin at; run.options get the multipliers of a Result or a file."""
+    """The unknowns to begin at; run.options get the multipliers of a Result, a file or a step."""
     from .result import Result
 
-    if start is None:
+    if isinstance(start, str) and start == "zero":
         return NULL
     multipliers = None
-    if isinstance(start, Result):
+    if start is None:
+        x, multipliers = start_from_step(problem, run)
+        if not multipliers:
+            return NULL
+    elif isinstance(start, Result):
         with Call() as call:
             multipliers = multipliers_handle(lambda out: call(lib.ambulo_multipliers_of(
                 start.problem._pointer, start._pointer, NULL, out)))
