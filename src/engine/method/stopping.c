@@ -77,7 +77,8 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, doub
   }
   int stalled = bound && (s->since_better > AMBULO__STALL || s->still >= AMBULO__PATIENCE);
   double reach = stalled ? AMBULO__ROUGH_VIOLATION : AMBULO__NEAR_VIOLATION;
-  if ((settled || stalled) && violation <= reach && ambulo__polish(e, stalled, x))
+  int fresh = stalled || s->still == 0; /* a point that stays was polished */
+  if ((settled || stalled) && violation <= reach && fresh && ambulo__polish(e, stalled, x))
     return settled ? settled : AMBULO_ENDING_STALLED;
   int slow = stalled || (bound && s->since_halved > AMBULO__STALL);
   return slow && raise_limit(s) && stalled ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE;
