@@ -41,7 +41,7 @@ FINE, FINEST = grid(100, 48, 4, knots=True), grid(400, 48, 4, knots=True)
 
 
 def solve(program, problem, settings, folder):
-    command = [program, "solve", problem, "--output", folder, "--force", "--samples",
+    command = [program, "solve", problem, "--start", "zero", "--output", folder, "--force", "--samples",
                str(SAMPLES), "--quiet"]
     for setting in settings:
         command += ["--set", setting]

@@ -23,7 +23,7 @@ for path in sorted(folder.glob("*.yaml")):
     for _ in range(runs):
         with tempfile.TemporaryDirectory() as out:
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            subprocess.run([program, "solve", str(path), "-o", out + "/result", "--quiet"], check=False,
+            subprocess.run([program, "solve", str(path), "-o", out + "/result", "--quiet", "--start", "zero"], check=False,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -23,7 +23,7 @@ import gait_ipopt  # noqa: E402
 def ours(program, models, intervals):
     with tempfile.TemporaryDirectory() as folder:
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([program, "solve", f"{models}/yardstick_{intervals}.yaml", "--quiet",
+        subprocess.run([program, "solve", f"{models}/yardstick_{intervals}.yaml", "--start", "zero", "--quiet",
                         "--force", "-o", folder + "/out"], check=False,
                        stderr=subprocess.DEVNULL)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
