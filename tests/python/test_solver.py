@@ -4,7 +4,7 @@ import math
 
 import ambulo
 import numpy
-from support import REACH, Case
+from support import REACH, TOP, Case
 
 
 class Solvers(Case):
@@ -44,3 +44,11 @@ class Solvers(Case):
                 self.assertAlmostEqual(state.objective / result.objective, 1.0, 3)
             with self.assertRaises(ambulo.AmbuloError):
                 solver.start(numpy.full_like(result.x, numpy.nan))
+
+    def test_several_steps(self):
+        """They start from one; unless they are told to start at zero."""
+        steps = ["gait.steps=3", "time.duration=1.62", "time.intervals=75", "trajectory.intervals=51"]
+        with ambulo.Problem.load(TOP / "tests" / "support" / "walk_rigid.yaml", steps) as problem:
+            few, many = problem.solve(), problem.solve("zero")
+            self.assertLess(2 * few.iterations, many.iterations)
+            self.assertLess(few.objective, 1.001 * many.objective)
