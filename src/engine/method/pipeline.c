@@ -88,9 +88,10 @@ static void divide(ambulo__engine *e, int i, double size) {
   ambulo__sparse_rows_set_scale(&rows->inequality, i, -1.0 / size);
 }
 
-/* (P.15) v = -c / (s max(1, sqrt l)), beside a solution -c / (s max(.3, sqrt l)) */
+/* (P.15) v = -c / (s max(1, sqrt l)), near a solution -c / (s max(.3, sqrt l)) */
 void ambulo__balance_rows(ambulo__engine *e, ambulo__stage stage, const double *x) {
   ambulo__row_roles *rows = &e->linearized.rows;
+  int near = stage == AMBULO__NEAR || stage == AMBULO__BESIDE;
   if (ambulo__evaluate_jacobian(e->workspace, x) ||
       ambulo__sparse_rows_fill(&rows->inequality, e->workspace, 0) ||
       ambulo__engine_fill_metric(e, e->iterate.mu))
@@ -98,7 +99,7 @@ void ambulo__balance_rows(ambulo__engine *e, ambulo__stage stage, const double *
   for (int i = 0; i < e->setup->inequalities; i++) {
     divide(e, i, rows->unit[i]);
     double length = ambulo__band_row_length(&e->linearized.base, &rows->inequality, i);
-    double shortest = stage == AMBULO__BESIDE ? AMBULO__SHORT_ROW : 1.0;
+    double shortest = near ? AMBULO__SHORT_ROW : 1.0;
     if (isfinite(length) && length > 0.0)
       divide(e, i, rows->unit[i] * fmax(shortest, sqrt(length)));
   }
