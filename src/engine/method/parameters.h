@@ -81,14 +81,14 @@
 #define AMBULO__BESIDE_MOST 8.0
 /* Least divisor of a row that is short in the metric, near a solution: such rows give way to a
  * larger penalty. The same solves: .1 385, 1 (none) about 500. walker_2d_step on 160 intervals,
- * whose end is looked at again: 46 iterations, 1 80. From elsewhere the multipliers have still to
+ * whose end is looked at again: 30 iterations, 1: 80. From elsewhere the multipliers have still to
  * be found, and it gains nothing. T: pipeline; fine_grids. */
 #define AMBULO__SHORT_ROW 0.3
 /* Of the promised descent: an inner solve that brought less was short. Promises below GAIN_COUNTS
  * of f are rounding. SHORT_SOLVES in a row show that R is too stiff, where it is above
- * PENALTY_STIFF: it is divided by PENALTY_STEP. 29 problems, evaluations: 16398; 0 (never): 18511;
- * a quarter for a tenth: 18568; .3 for .5: 17314; 2 in a row: 16650; at
- * most 1 fall for 3: 17882; without a bound run_whole_body meets its limit. T: trust. */
+ * PENALTY_STIFF: it is divided by PENALTY_STEP. 29 problems, evaluations: 16306; 0 (never): 18511;
+ * a quarter for a tenth: 18568; .3 for .5: 17314; 2 in a row: 16650; at most 1 fall for 3: 17882;
+ * without a bound run_whole_body meets its limit. T: trust. */
 #define AMBULO__GAIN_SHORT 0.5
 #define AMBULO__GAIN_COUNTS 1e-5
 #define AMBULO__SHORT_SOLVES 3
