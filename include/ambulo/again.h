@@ -3,7 +3,7 @@
  * What was solved once need not be found again. A solution has two halves: its control points, and
  * the multipliers of its rows, which are the expensive one. A solve that begins with both takes a
  * few iterations where one from zero takes fifty: models/walk.yaml at 1.293 m/s from its solution
- * at 1.28 m/s, 8 for 104.
+ * at 1.28 m/s, 9 for 74.
  */
 #ifndef AMBULO_AGAIN_H
 #define AMBULO_AGAIN_H
@@ -29,8 +29,8 @@ AMBULO_API void ambulo_multipliers_free(ambulo_multipliers *multipliers); /* acc
  * One problem solved again and again, as a controller does: the state that it starts from, the
  * places that it is to reach and the motion that it follows change, and each time a few iterations
  * continue from where the last ones ended. The object keeps the problem, its factors, the motion
- * and the multipliers. Nothing is classified, checked or built anew between two solves, and there
- * is no audit unless one is asked for.
+ * and the multipliers. Nothing is checked or built anew between two solves, unless parts of the
+ * body come near each other; and there is no audit unless one is asked for.
  *
  *     create --> start --> [ set_end, set_reference, shift --> iterate ] ... --> result --> free
  *
@@ -80,9 +80,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_shift(ambulo_solver *sol
 
 /* At most so many inner solves (> 0), and so many seconds (AMBULO_OFF: any). A budget that is met
  * ends with what there is, without the Newton steps that bring rows to their tolerance elsewhere,
- * and `worst` says what is missing. *state is valid until the next call of
- * this function. Where nothing better is found, the solver stays where it was. E_ARGUMENT,
- * E_MEMORY. */
+ * and `worst` says what is missing. The solver stands where the last inner solve ended, better or
+ * not; where it was, if no point is finite. *state is valid until the next call of this function.
+ * E_ARGUMENT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_iterate(ambulo_solver *solver,
                                                                 int iterations, double seconds,
                                                                 const ambulo_solver_state **state);

@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "cli/body.h"
@@ -257,22 +256,15 @@ static void watch_solve(job *j, double limit) {
   ambulo__cli_watch_begin(&j->watch);
 }
 
-static double seconds_now(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* a gait of several steps without a start has that of one, if it can; the limit is of both */
 static ambulo_status start_from_step(job *j, ambulo_options *options) {
   if (ambulo__cli_value(j->input, "start")) return AMBULO_OK;
   double *x = calloc((size_t)ambulo_problem_variable_count(j->problem), sizeof *x);
   if (!x) return AMBULO_E_MEMORY;
-  double began = seconds_now();
   watch_solve(j, options->time_limit);
   ambulo_status status = ambulo_start_from_step(j->problem, options, NULL, x, &j->multipliers);
   ambulo__cli_watch_end(&j->watch);
-  double taken = seconds_now() - began;
+  double taken = ambulo__cli_watch_seconds(&j->watch);
   if (options->time_limit > 0.0) options->time_limit = fmax(1e-3, options->time_limit - taken);
   if (!j->multipliers) {
     free(x);

@@ -24,6 +24,10 @@ static double seconds_of(clockid_t clock) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double ambulo__cli_watch_seconds(const ambulo__cli_watch *w) {
+  return seconds_of(CLOCK_MONOTONIC) - w->began;
+}
+
 static ambulo_ending reason(const ambulo__cli_watch *w, double now) {
   if (ambulo__cli_stops() > 0) return AMBULO_ENDING_CALLER;
   if (w->limit > 0.0 && now - w->began >= w->limit) return AMBULO_ENDING_TIME;

@@ -32,6 +32,8 @@ typedef struct ambulo__cli_watch {
 void ambulo__cli_watch_begin(ambulo__cli_watch *watch);
 /* The solve's progress, in its own thread. */
 void ambulo__cli_watch_note(ambulo__cli_watch *watch, const ambulo_progress *progress);
+/* s since it began. */
+double ambulo__cli_watch_seconds(const ambulo__cli_watch *watch);
 /* The solve is back. Does not return once `give_up` was called. */
 void ambulo__cli_watch_end(ambulo__cli_watch *watch);
 

@@ -1,20 +1,8 @@
 /* solution.yaml: the same bits on the same grid, the same motion on another, and refusals. */
-#include "show/report.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
-#include "support/scratch.h"
-#include "support/walker_result.h"
-
-static const char *write_solution(void **state, const walk *w) {
-  ambulo__text_buffer text;
-  ambulo__text_init(&text, NULL);
-  ambulo__solution_yaml(w->problem, w->result, &text);
-  const char *path = scratch_path(state, "solution.yaml");
-  scratch_write(path, ambulo__text_data(&text));
-  ambulo__text_free(&text);
-  return path;
-}
+#include "support/walker_solution.h"
 
 static void test_same_bits(void **state) {
   walk w;

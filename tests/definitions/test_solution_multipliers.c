@@ -1,21 +1,9 @@
 /* multipliers of a solution.yaml: those of the result again, and refusals. */
 #include "ambulo/tools/load.h"
 #include "method/multipliers.h"
-#include "show/report.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
-#include "support/scratch.h"
-#include "support/walker_result.h"
-
-static const char *write_solution(void **state, const walk *w) {
-  ambulo__text_buffer text;
-  ambulo__text_init(&text, NULL);
-  ambulo__solution_yaml(w->problem, w->result, &text);
-  const char *path = scratch_path(state, "solution.yaml");
-  scratch_write(path, ambulo__text_data(&text));
-  ambulo__text_free(&text);
-  return path;
-}
+#include "support/walker_solution.h"
 
 /* every third of the inequalities, and of the equalities, which do not count, all */
 static void press(walk *w) {

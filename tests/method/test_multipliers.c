@@ -181,6 +181,62 @@ static void periods_are_mirrored(void **state) {
   engine_close(&f);
 }
 
+/* the density of one row that is asked for in the second of two mirrored periods */
+static double in_the_mirror(engine_fixture *f, const char *family, const char *subject,
+                            const char *detail, const ambulo__table_row *asked) {
+  ambulo_multipliers *m = NULL;
+  assert_int_equal(ambulo__multipliers_allocate(1, NULL, &m), AMBULO_OK);
+  double duration = f->problem->definition.duration, density = 0.0;
+  m->interval = m->mirrored = 1;
+  m->periods = 2;
+  m->row[0] = (ambulo__multiplier){ambulo__multiplier_series(family, subject, detail),
+                                   2.0 * asked->time / duration - 1.0, 3.0};
+  ambulo__multipliers_transfer(m, f->engine);
+  for (int i = 0; i < f->engine->setup->inequalities; i++)
+    if (row_of(f->engine, i) == asked)
+      density = f->engine->iterate.lambda[i] * -f->engine->linearized.rows.inequality.scale[i] /
+                (f->engine->setup->objective_scale * f->problem->quadrature[asked->node]);
+  ambulo_multipliers_free(m);
+  return density;
+}
+
+/* what is no coordinate has its side in words: right and left, _r and _l */
+static void sides_are_words(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "support/walk_rigid");
+  static const char *const sides[][2] = {
+      {"right", "left"}, {"left", "right"}, {"heel_r", "heel_l"}, {"heel_l", "heel_r"}};
+  int seen[4] = {0};
+  for (int i = 0; i < f.engine->setup->inequalities; i++) {
+    const ambulo__table_row *row = row_of(f.engine, i);
+    if (row->node < 0 || row->time <= 0.51 * f.problem->definition.duration ||
+        strstr(row->detail, "left") || strstr(row->detail, "right"))
+      continue;
+    for (int k = 0; k < 4; k++) {
+      if (seen[k] || strcmp(row->subject, sides[k][0]) != 0) continue;
+      double same = in_the_mirror(&f, row->family, sides[k][0], row->detail, row);
+      double other = in_the_mirror(&f, row->family, sides[k][1], row->detail, row);
+      assert_close(other, 3.0, 1e-9);
+      assert_true(same == 0.0);
+      seen[k] = 1;
+    }
+  }
+  assert_true((seen[0] || seen[1]) && (seen[2] || seen[3]));
+  engine_close(&f);
+}
+
+/* what was at t + d is at t */
+static void a_shift_brings_later_ones(void **state) {
+  (void)state;
+  ambulo_multipliers *m = NULL;
+  assert_int_equal(ambulo__multipliers_allocate(2, NULL, &m), AMBULO_OK);
+  m->row[1].time = 0.75;
+  ambulo__multipliers_shift(m, 0.25);
+  assert_true(m->row[0].time == -0.25 && m->row[1].time == 0.5);
+  ambulo_multipliers_free(m);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(on_the_same_grid_nothing_changes),
@@ -188,6 +244,8 @@ int main(void) {
       cmocka_unit_test(rows_on_control_points_keep_their_multipliers),
       cmocka_unit_test(holes_stay_empty),
       cmocka_unit_test(periods_are_mirrored),
+      cmocka_unit_test(sides_are_words),
+      cmocka_unit_test(a_shift_brings_later_ones),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,6 +141,38 @@ static double objective_at_start(ambulo_solver *solver) {
   return objective;
 }
 
+/* From a solution, which holds every row, one inner solve a call leads to what is asked now; and a
+ * result of any of them is judged whole, however small the budget was. */
+static void a_solution_is_left_for_another_reference(void **state) {
+  (void)state;
+  ambulo_problem *problem = open_problem("walk_tracking", "time.intervals=24");
+  const ambulo_problem_definition *d = &problem->definition;
+  const ambulo_solver_state *s = NULL;
+  int t = 0;
+  while (!d->terms[t].reference) t++;
+  size_t count = (size_t)problem->nodes * (size_t)problem->coordinates;
+  double *other = calloc(count, sizeof *other);
+  for (size_t i = 0; i < count; i++)
+    other[i] = d->terms[t].reference[i] + 0.02 * sin(0.1 * (double)i);
+  ambulo_solver *solver = open_solver(problem);
+  s = iterate(solver, 300);
+  assert_true(s->feasible);
+  assert_int_equal(ambulo_solver_set_reference(solver, t, other), AMBULO_OK);
+  double before = objective_at_start(solver);
+  for (int k = 0; k < 40; k++)
+    assert_int_equal(ambulo_solver_iterate(solver, 1, 10.0, &s), AMBULO_OK);
+  assert_true(s->worst.worst / s->worst.size < 1e-3);
+  assert_true(s->objective < 0.99 * before);
+  assert_int_equal(ambulo_solver_iterate(solver, 1, 1e-9, &s), AMBULO_OK);
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solver_result(solver, NULL, &result), AMBULO_OK);
+  assert_true(isfinite(ambulo_result_audit(result)->kkt));
+  ambulo_result_free(result);
+  free(other);
+  ambulo_solver_free(solver);
+  ambulo_problem_free(problem);
+}
+
 /* half the reference, and back */
 static void another_reference_is_followed(void **state) {
   (void)state;
@@ -224,6 +256,7 @@ int main(void) {
                                      cmocka_unit_test(two_inner_solves_a_cycle),
                                      cmocka_unit_test(a_budget_says_what_is_missing),
                                      cmocka_unit_test(another_reference_is_followed),
+                                     cmocka_unit_test(a_solution_is_left_for_another_reference),
                                      cmocka_unit_test(refusals),
                                      cmocka_unit_test(memory_may_run_out)};
   return cmocka_run_group_tests(tests, NULL, NULL);

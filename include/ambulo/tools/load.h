@@ -114,11 +114,11 @@ ambulo_solution_multipliers(const char *path, const ambulo_problem *problem, amb
                             ambulo_multipliers **multipliers);
 
 /* The start of a gait of several steps from one of them (of unlike steps: from two), which is
- * solved with these options and repeated. It takes half of a time limit at most; its progress has
- * the stage "one step". *multipliers becomes NULL, and x [variable_count] is not touched, where
- * there is no such start: no `gait` of several steps that repeats, references, tubes, reaches,
- * obstacles, loads or profiles over time, several starts, fewer than 8 intervals a step, or a step
- * without a solution. Errors: E_MEMORY. */
+ * solved with these options (NULL: the defaults) and repeated. It takes half of a time limit at
+ * most; its progress has the stage "one step". *multipliers becomes NULL, and x [variable_count] is
+ * not touched, where there is no such start: no `gait` of several steps that repeats, references,
+ * tubes, reaches, obstacles, loads or profiles over time, several starts, fewer than 8 intervals a
+ * step, or a step without a solution. Errors: E_ARGUMENT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_start_from_step(const ambulo_problem *problem,
                                                                  const ambulo_options *options,
                                                                  const ambulo_allocator *allocator,

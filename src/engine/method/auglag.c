@@ -27,9 +27,8 @@
  *   sigma      where a call has to be repeated, it starts with the lambda of the last one.
  *   ending     pipeline.h, by nlopt_force_stop.
  *
- *   R lower    where two inner solves in a row bring less than half of what the model promised, the
- *              penalty is too stiff for L-BFGS, and rows that do not hold are unfinished work: R
- *              does not grow, and falls to a tenth. S is raised for it; lambda stays.
+ *   R lower    near a solution, inner solves that bring less than half of what the model promised
+ *              show a penalty too stiff for L-BFGS (trust.h). S is lowered with R; lambda stays.
  *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
  * the phases are distinguished. It starts with rho = 1e-6 where the constant makes its f zero and

@@ -167,6 +167,10 @@ ambulo_status ambulo__multipliers_save(const ambulo__engine *e, const ambulo_all
   return status;
 }
 
+void ambulo__multipliers_shift(ambulo_multipliers *m, double share) {
+  for (int i = 0; i < m->count; i++) m->row[i].time -= share;
+}
+
 /* ------------------------------------------------------------------ to a solve */
 
 /* the first row that is not before this one */

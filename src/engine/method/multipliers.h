@@ -51,4 +51,7 @@ ambulo_status ambulo__multipliers_save(const ambulo__engine *engine,
 /* Sets the engine's multipliers; what the others have no rows for starts at zero. NULL: nothing. */
 void ambulo__multipliers_transfer(const ambulo_multipliers *multipliers, ambulo__engine *engine);
 
+/* As they are `share` of the duration later. */
+void ambulo__multipliers_shift(ambulo_multipliers *multipliers, double share);
+
 #endif

@@ -31,11 +31,12 @@
 struct ambulo_solver {
   ambulo_allocator allocator;
   ambulo_problem *problem;
-  ambulo_options options;
+  ambulo_options options; /* the caller's */
+  ambulo_options budget;  /* the same for one call of ambulo_solver_iterate */
   ambulo__run run;
   ambulo__engine *engine;
-  ambulo__candidates candidates;
   double *x;       /* [variables]: where it stands */
+  double *moved;   /* [variables]: where an iterate ends */
   double *rows;    /* [nodes of the Hermite spline][2 d]: scratch of a shift */
   int *end_row;    /* [end values of the definition]: their rows */
   int is_beside;   /* 1: the engine has multipliers of a solution */
@@ -60,10 +61,11 @@ static ambulo_status allocate(ambulo_solver *s) {
   size_t n = (size_t)p->variables, d = (size_t)p->coordinates;
   size_t states = (size_t)ambulo__basis_intervals(p->basis) + 1;
   s->x = ambulo__alloc(&s->allocator, n, sizeof *s->x);
+  s->moved = ambulo__alloc(&s->allocator, n, sizeof *s->moved);
   s->rows = ambulo__alloc(&s->allocator, states, 2 * d * sizeof *s->rows);
   s->end_row =
       ambulo__alloc(&s->allocator, (size_t)p->definition.end_value_count + 1, sizeof *s->end_row);
-  if (!s->x || !s->rows || !s->end_row) return AMBULO_E_MEMORY;
+  if (!s->x || !s->moved || !s->rows || !s->end_row) return AMBULO_E_MEMORY;
   ambulo__start_pose(p, s->x);
   find_end_rows(s);
   return AMBULO_OK;
@@ -81,7 +83,6 @@ static ambulo_status set_up(ambulo_solver *s, const ambulo_problem *problem,
   if (!status)
     status =
         ambulo__engine_create(s->problem, s->x, &s->allocator, &s->run, diagnostics, &s->engine);
-  if (!status) status = ambulo__candidates_create(&s->candidates, s->engine);
   if (!status && (s->options.algorithm == AMBULO_SLSQP || !s->engine->setup->rows->regular))
     status = ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                            "a solver object works by AUGLAG; expected a problem without rows of "
@@ -115,10 +116,10 @@ ambulo_status ambulo_solver_create(const ambulo_problem *problem, const ambulo_o
 void ambulo_solver_free(ambulo_solver *s) {
   if (!s) return;
   ambulo_allocator a = s->allocator;
-  ambulo__free(&a, s->candidates.start.x);
   ambulo__engine_free(s->engine);
   ambulo__free(&a, s->end_row);
   ambulo__free(&a, s->rows);
+  ambulo__free(&a, s->moved);
   ambulo__free(&a, s->x);
   ambulo_problem_free(s->problem);
   ambulo__free(&a, s);
@@ -211,16 +212,14 @@ static ambulo_status shift_motion(ambulo_solver *s, double time, double *x) {
 ambulo_status ambulo_solver_shift(ambulo_solver *s, double time) {
   if (!s || !(time >= 0.0 && time <= s->problem->definition.duration)) return AMBULO_E_ARGUMENT;
   ambulo_multipliers *m = NULL;
-  double *x = ambulo__alloc(&s->allocator, (size_t)s->problem->variables, sizeof *x);
-  ambulo_status status = x ? shift_motion(s, time, x) : AMBULO_E_MEMORY;
+  ambulo_status status = shift_motion(s, time, s->moved);
   if (!status && s->is_beside) {
     double objective = s->state.objective;
     status = ambulo__multipliers_save(s->engine, &s->allocator, &m);
     if (m) m->objective = objective;
   }
-  if (!status) memcpy(s->x, x, (size_t)s->problem->variables * sizeof *x);
-  ambulo__free(&s->allocator, x);
-  for (int i = 0; m && i < m->count; i++) m->row[i].time -= time / s->problem->definition.duration;
+  if (!status) memcpy(s->x, s->moved, (size_t)s->problem->variables * sizeof *s->x);
+  if (m) ambulo__multipliers_shift(m, time / s->problem->definition.duration);
   if (!status) ambulo__multipliers_transfer(m, s->engine);
   ambulo_multipliers_free(m);
   s->is_anywhere = 0;
@@ -262,18 +261,16 @@ static ambulo_status work(ambulo_solver *s) {
   ambulo__stage stage = s->is_beside ? AMBULO__BESIDE : AMBULO__FAR;
   int levels = 0;
   ambulo_status status = AMBULO_OK;
-  ambulo__candidates *c = &s->candidates;
-  c->start.violation = c->found.violation = HUGE_VAL;
-  c->start.objective = c->found.objective = HUGE_VAL;
   if (s->is_anywhere && s->options.continuation)
     status = ambulo__refine(e, &s->allocator, s->x, &levels);
   if (s->is_beside && e->iterate.carried_objective < 0.0)
     e->iterate.carried_objective = fabs(s->state.objective);
-  ambulo__candidates_offer_start(c, e, s->x);
-  if (!status) status = ambulo__pipeline(e, stage, s->x);
+  double *x = s->moved;
+  memcpy(x, s->x, (size_t)s->problem->variables * sizeof *x);
+  if (!status) status = ambulo__pipeline(e, stage, x);
   if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the state tells */
-  ambulo__candidates_offer(c, e, s->x);
-  (void)ambulo__candidates_take(c, s->x);
+  if (ambulo__violation_at(e, x) < HUGE_VAL)
+    memcpy(s->x, x, (size_t)s->problem->variables * sizeof *x);
   s->is_anywhere = 0;
   s->is_beside = e->reached.value < HUGE_VAL;
   return status;
@@ -283,10 +280,11 @@ ambulo_status ambulo_solver_iterate(ambulo_solver *s, int iterations, double sec
                                     const ambulo_solver_state **state) {
   if (!s || !state || iterations < 1 || seconds <= 0.0) return AMBULO_E_ARGUMENT;
   double begin = ambulo__seconds_now();
-  s->options.maximum_iterations = iterations;
-  s->options.time_limit = seconds;
+  s->budget = s->options;
+  s->budget.maximum_iterations = iterations;
+  s->budget.time_limit = seconds;
   forget_values(s);
-  ambulo__run_begin(&s->run, &s->options);
+  ambulo__run_begin(&s->run, &s->budget);
   s->run.unpolished = 1;
   ambulo_status status = work(s);
   if (status) return status;
