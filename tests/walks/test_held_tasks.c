@@ -155,6 +155,23 @@ static void check_grip(const task *k) {
   }
 }
 
+/* hips, knees and ankles bend, and none to the end of its range; no joint is weaker than its torque */
+static void check_limits(const task *k) {
+  static const char *const bent[] = {"hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
+  for (int i = 0; i < TIMES; i++) {
+    for (int b = 0; b < 3; b++) {
+      const ambulo_coordinate *c =
+          ambulo_model_coordinate(k->model, ambulo_model_find_coordinate(k->model, bent[b]));
+      assert_true(value(k, k->q, i, bent[b]) < c->range[1] - 0.08);
+    }
+    for (int j = 0; j < k->coordinates; j++) {
+      const ambulo_coordinate *c = ambulo_model_coordinate(k->model, j);
+      double tau = k->tau[i * k->coordinates + j];
+      if (c->actuated) assert_true(tau >= 1.01 * c->torque[0] && tau <= 1.01 * c->torque[1]);
+    }
+  }
+}
+
 /* Two hands alike; the back's moment is that of people who lift 10 kg from the floor: about L5/S1
  * 150 to 220 N m. */
 static void a_box_from_the_floor_to_a_table(void **state) {
@@ -165,6 +182,7 @@ static void a_box_from_the_floor_to_a_table(void **state) {
   check_momentum(&k);
   check_energy(&k);
   check_grip(&k);
+  check_limits(&k);
   double lumbar = 0, apart = 0, hand = 0;
   for (int i = 0; i < TIMES; i++) {
     const double *f = k.force + 2 * AXES * i;

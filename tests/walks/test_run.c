@@ -304,15 +304,56 @@ static void runners_bounce_on_bent_knees(void **state) {
   }
 }
 
+/* As a man who jumps: knees bend to 85 to 110 degrees, arms swing back and up, and the centre of mass
+ * rises by 0.3 m and more over where it stands. No joint is weaker than its torque. */
+static void it_jumps_as_people(run *r) {
+  static double times[SAMPLES], q[COORDINATES * SAMPLES], tau[COORDINATES * SAMPLES];
+  const ambulo_model *m = ambulo_problem_model(r->problem);
+  const double turn = 57.295779513082321;
+  const int n = m->coordinate_count, knee = ambulo_model_find_coordinate(m, "knee_angle_l");
+  const int arm = ambulo_model_find_coordinate(m, "arm_flex_l");
+  double bent = 0.0, back = 0.0, up = 0.0, stands = 0.0, highest = 0.0;
+  assert_true(n <= COORDINATES && knee >= 0 && arm >= 0);
+  for (int k = 0; k < SAMPLES; k++)
+    times[k] = ambulo_problem_duration(r->problem) * k / (SAMPLES - 1.0);
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q, .tau = tau};
+  assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result),
+                                         SAMPLES, times, &motion),
+                   AMBULO_OK);
+  ambulo__pose pose;
+  assert_int_equal(ambulo__pose_create(m, NULL, &pose), AMBULO_OK);
+  for (int k = 0; k < SAMPLES; k++) {
+    double center[3];
+    ambulo__pose_at(&pose, q + k * n);
+    ambulo__pose_center_of_mass(&pose, center);
+    if (k == 0) stands = center[1];
+    highest = fmax(highest, center[1]);
+    bent = fmax(bent, turn * q[k * n + knee]);
+    back = fmin(back, turn * q[k * n + arm]);
+    up = fmax(up, turn * q[k * n + arm]);
+    for (int c = 0; c < n; c++) {
+      const ambulo_coordinate *limits = ambulo_model_coordinate(m, c);
+      if (!limits->actuated) continue;
+      assert_true(tau[k * n + c] >= 1.01 * limits->torque[0]);
+      assert_true(tau[k * n + c] <= 1.01 * limits->torque[1]);
+    }
+  }
+  ambulo__pose_free(&pose);
+  assert_true(highest - stands > 0.3);
+  assert_true(bent > 85.0 && bent < 110.0);
+  assert_true(back < -30.0 && up > 100.0);
+}
+
 /* nobody asks for the countermovement, nor how the ground is pushed; both legs do the same */
 static void a_jump_goes_down_first(void **state) {
   (void)state;
   run r = solve_run("jump", NULL);
+  it_jumps_as_people(&r);
   force_curve f = forces_of(&r);
   double least = 1.0;
   for (int k = 0; k < SAMPLES / 2; k++) least = fmin(least, 2.0 * f.up[k]);
   assert_true(least < 0.8 && 2.0 * f.peak > 2.0 && 2.0 * f.peak < 3.5);
-  assert_close(f.contact, 0.94, 0.03);
+  assert_close(f.contact, 0.82, 0.03);
   momenta_are_those_of_a_body_in_flight(&r);
   free_run(&r);
 }
