@@ -8,6 +8,10 @@
  * speed along f: the true place, with the walking direction stretched by the constant factor
  * that spreads the figures over the time axis. Where the ground is not level each figure stands on
  * the piece of it that is below it, and among the pieces of obstacles beside it.
+ *
+ * On a slope alpha the world's axes stay with the ground, and gravity is turned. The picture turns
+ * each figure back by alpha about the place where it stands, and lets these places rise: the ground
+ * is one line of the true slope, and down the page is down.
  */
 #include <math.h>
 #include <string.h>
@@ -21,8 +25,11 @@
 
 enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, FEWEST_SCENES = 7, EXTENT_SAMPLES = 61 };
 
+static const double degrees = 57.295779513082321;
 static const double head_room = 14.0;                  /* px above the figures */
 static const double soil_depth = 15.0, slot_gap = 3.0; /* px */
+static const double before = 70.0, after = 80.0;       /* px: ground beside the panel */
+static const double steepest = 1.0;                    /* rad: beyond, it is drawn level */
 static const double around = 0.3; /* m: ground before and behind a figure that is always shown */
 static const double side_room =
     78.0; /* px beside the first and the last figure, within the margins */
@@ -35,6 +42,7 @@ typedef struct strip {
   ambulo__skeleton skeleton;
   ambulo__gait_ground soil;
   ambulo__held_places held;
+  ambulo__worn_list worn;
   int reference;       /* link whose parent's origin moves with the body */
   double speed, start; /* of the reference along forward, m/s, m */
   double ground;       /* m */
@@ -42,7 +50,8 @@ typedef struct strip {
   double reach;        /* how far to either side of one that stands things are drawn, m */
   double low, high;    /* above the ground, m */
   double scale;        /* px per m */
-  double base;         /* y of the ground, px */
+  double slope;        /* of the ground as it is drawn, rad */
+  double base;         /* y of the ground at t = 0, px */
   int figures;
 } strip;
 
@@ -104,13 +113,26 @@ static void find_extent(strip *s, const ambulo__stride *stride) {
     s->low = fmin(s->low, lowest_ground(s, stride->times[k], -around, around));
     for (int b = 0; b < s->skeleton.bone_count; b++) {
       const ambulo__bone *bone = &s->skeleton.bones[b];
-      double at[2];
-      flat_point(s, bone, 0, stride->times[k], at);
-      widen(s, at, 0.0);
-      flat_point(s, bone, 1, stride->times[k], at);
-      widen(s, at, bone->head);
+      for (int end = 0; end < 2; end++) {
+        double at[2], c = cos(s->slope), n = sin(s->slope);
+        flat_point(s, bone, end, stride->times[k], at);
+        const double turned[2] = {c * at[0] - n * at[1], n * at[0] + c * at[1]};
+        widen(s, turned, end ? bone->head : 0.0);
+      }
     }
   }
+  if (s->slope != 0.0) s->low = 0.0; /* there is room where the ground falls */
+}
+
+/* 0 where there is none, and where it is too steep to be drawn */
+static double drawn_slope(const ambulo_model *model) {
+  double slope = model->foot_count ? ambulo__ground_slope(model) : 0.0;
+  return fabs(slope) > 1e-3 && fabs(slope) < steepest ? slope : 0.0;
+}
+
+/* px that the ground rises along the page */
+static double whole_rise(double slope, const ambulo__panel *panel) {
+  return fabs(tan(slope)) * (panel->width + before + after);
 }
 
 /* figures that walk, and not only stand beside their own later ones */
@@ -121,7 +143,7 @@ static int walks(const strip *s) {
 /* as many figures as stand apart, as large as fits */
 static void choose_scale(strip *s, double overlap, double room, int fewest) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
-  s->scale = (s->panel->height - head_room) / height;
+  s->scale = (s->panel->height - head_room - whole_rise(s->slope, s->panel)) / height;
   /* the first and the last figure stay on the page */
   if (s->right * s->scale > room) s->scale = room / s->right;
   if (-s->left * s->scale > room) s->scale = room / -s->left;
@@ -132,12 +154,19 @@ static void choose_scale(strip *s, double overlap, double room, int fewest) {
     s->figures = fewest;
     s->scale *= s->panel->width / (double)(fewest - 1) / spacing;
   }
-  s->base = s->panel->y + s->panel->height + s->scale * s->low;
+  s->base = s->panel->y + s->panel->height + s->scale * s->low -
+            fabs(tan(s->slope)) * (s->slope > 0.0 ? before : s->panel->width + after);
+}
+
+/* y of the ground, px */
+static double base_at(const strip *s, double x) {
+  return s->base - tan(s->slope) * (x - s->panel->x);
 }
 
 static void to_page(const strip *s, double t, const double at[2], double page[2]) {
-  page[0] = ambulo__panel_time(s->panel, t) + s->scale * at[0];
-  page[1] = s->base - s->scale * at[1];
+  double x = ambulo__panel_time(s->panel, t);
+  page[0] = x + s->scale * at[0];
+  page[1] = base_at(s, x) - s->scale * at[1];
 }
 
 /* a place of a link (-1: of the world) in the picture; 0: the motion is not finite there */
@@ -202,122 +231,88 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
     if (!on_page(s, ends[1]->link, ends[1]->position, t, page[1]) || !seen) continue;
     double below = 5.5 + (s->skeleton.side[heel->link] == AMBULO__RIGHT ? 5.0 : 0.0);
     double y[2];
-    for (int e = 0; e < 2; e++) y[e] = below + (s->soil.count ? page[e][1] : s->base);
+    double level = base_at(s, ambulo__panel_time(s->panel, t));
+    for (int e = 0; e < 2; e++) y[e] = below + (s->soil.count ? page[e][1] : level);
     /* a zero-length line with round ends would not be drawn everywhere */
     ambulo__svg_line(text, styles[s->skeleton.side[heel->link]], page[0][0] - 0.5, y[0],
                      page[1][0] + 0.5, y[1]);
   }
 }
 
-/* what the body wears and carries */
-static void draw_worn(const strip *s, const ambulo__stride *stride, int sample,
-                      ambulo__text_buffer *text) {
-  for (int i = 0; i < ambulo__worn_count(stride); i++) {
-    double t = stride->times[sample], page[2][2];
-    ambulo__worn mark;
-    if (!ambulo__worn_at(stride, sample, i, &mark)) continue;
-    int seen = on_page(s, mark.link[0], mark.at[0], t, page[0]);
-    if (!on_page(s, mark.link[1], mark.at[1], t, page[1]) || !seen) continue;
-    if (mark.radius > 0.0)
-      ambulo__svg_circle(text, mark.style, page[0][0], page[0][1], s->scale * mark.radius);
-    else
-      ambulo__svg_line(text, mark.style, page[0][0], page[0][1], page[1][0], page[1][1]);
-  }
-}
-
-/* the surface that a patch in contact rests on, as long as the patch */
-static void draw_patches(const strip *s, const ambulo__stride *stride, double t,
-                         ambulo__text_buffer *text) {
-  static const char *const styles[] = {"trunk-mark", "left-mark", "right-mark"};
-  const ambulo_model *model = s->model;
-  for (int i = 0; i < model->patch_count; i++) {
-    const ambulo_contact *contact = ambulo__stride_contact(stride, model->foot_count + i, t);
-    if (!contact) continue;
-    const ambulo_point *point = &model->points[model->patches[i].point];
-    ambulo__contact_frame frame = ambulo__contact_frame_of(&stride->problem->definition, contact);
-    double ahead = model->patches[i].size[0] * s->scale, page[2];
-    double x = ahead * ambulo__dot(model->forward, frame.forward);
-    double y = ahead * ambulo__dot(model->up, frame.forward);
-    if (!on_page(s, point->link, point->position, t, page)) continue;
-    ambulo__svg_line(text, styles[ambulo__gait_patch_side(model, i)], page[0] - x, page[1] + y,
-                     page[0] + x, page[1] - y);
-  }
-}
-
-/* the top of the ground under a figure, from left to right */
-static void trace_ground(const strip *s, double t, const double ends[2],
-                         ambulo__text_buffer *text) {
-  double origin = s->start + s->speed * t;
-  int begun = 0;
-  for (int i = 0; i < s->soil.count; i++) {
-    const ambulo__surface *p = &s->soil.surface[i];
-    double x[2] = {fmax(p->from, origin + ends[0]), fmin(p->to, origin + ends[1])}, page[2];
-    for (int e = 0; e < 2 && x[0] <= x[1]; e++) {
-      double at[2] = {x[e] - origin, ambulo__surface_height(p, x[e])};
-      to_page(s, t, at, page);
-      /* what is far below the picture has no place in it */
-      page[1] = fmin(page[1], s->panel->y + s->panel->height + soil_depth - slot_gap);
-      if (begun++)
-        ambulo__svg_path_line(text, page[0], page[1]);
-      else
-        ambulo__svg_path_move(text, page[0], page[1]);
-    }
-  }
-}
-
-static void draw_ground_below(const strip *s, double t, ambulo__text_buffer *text) {
-  double half = 0.5 * s->panel->width / (double)(s->figures - 1) - slot_gap;
-  double ends[2] = {-half / s->scale, half / s->scale};
-  double middle = ambulo__panel_time(s->panel, t);
-  double bottom = s->panel->y + s->panel->height + soil_depth;
-  if (!isfinite(middle + s->start + s->speed)) return;
-  ambulo__svg_path_begin(text, "soil");
-  trace_ground(s, t, ends, text);
-  ambulo__svg_path_line(text, middle + half, bottom);
-  ambulo__svg_path_line(text, middle - half, bottom);
-  ambulo__svg_path_end(text);
-  ambulo__svg_path_begin(text, "edge");
-  trace_ground(s, t, ends, text);
-  ambulo__svg_path_end(text);
-}
-
-/* obstacles and places beside a figure: as far as halfway to the next, or in its reach */
-static void draw_surroundings(const strip *s, const ambulo__stride *stride, double t,
-                              ambulo__text_buffer *text) {
+/* what is beside a figure is drawn as far as halfway to the next, or in its reach */
+static ambulo__figure_view view_of(const strip *s, const ambulo__stride *stride, double t) {
   double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
   if (!walks(s)) half = s->reach;
   double apart = stride->duration / (double)(stride->samples - 1);
-  ambulo__figure_view view = {
-      s->start + s->speed * t, half, ambulo__panel_time(s->panel, t), s->base, s->scale, t, apart};
-  if (!isfinite(view.origin)) return;
-  ambulo__gait_obstacles_draw(stride->problem, &view, text);
-  ambulo__gait_held_draw(stride->problem, &s->held, &s->skeleton.pose, &view, text);
+  double x = ambulo__panel_time(s->panel, t);
+  return (ambulo__figure_view){s->start + s->speed * t, half, x, base_at(s, x), s->scale, t, apart};
 }
 
-static void draw_level_ground(const strip *s, ambulo__text_buffer *text) {
-  double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
-  ambulo__svg_rectangle(text, "soil", left, s->base, width, soil_depth);
-  ambulo__svg_line(text, "ground", left, s->base, left + width, s->base);
+static void draw_ground_below(const strip *s, const ambulo__stride *stride, double t,
+                              ambulo__text_buffer *text) {
+  double half = 0.5 * s->panel->width / (double)(s->figures - 1) - slot_gap;
+  double bottom = s->panel->y + s->panel->height + soil_depth;
+  ambulo__figure_view view = view_of(s, stride, t);
+  ambulo__gait_ground_draw(&s->soil, &view, half, bottom, text);
+}
+
+/* level or sloping, but straight */
+static void draw_straight_ground(const strip *s, ambulo__text_buffer *text) {
+  double x[2] = {s->panel->x - before, s->panel->x + s->panel->width + after};
+  double y[2] = {base_at(s, x[0]), base_at(s, x[1])};
+  if (s->slope == 0.0) {
+    ambulo__svg_rectangle(text, "soil", x[0], y[0], x[1] - x[0], soil_depth);
+  } else {
+    ambulo__svg_path_begin(text, "soil");
+    ambulo__svg_path_move(text, x[0], y[0]);
+    ambulo__svg_path_line(text, x[1], y[1]);
+    ambulo__svg_path_line(text, x[1], y[1] + soil_depth);
+    ambulo__svg_path_line(text, x[0], y[0] + soil_depth);
+    ambulo__svg_path_end(text);
+  }
+  ambulo__svg_line(text, "ground", x[0], y[0], x[1], y[1]);
+}
+
+static void draw_figure(strip *s, const ambulo__stride *stride, int k, ambulo__text_buffer *text) {
+  double t = stride->times[k];
+  const ambulo__pose *pose = &s->skeleton.pose;
+  ambulo__figure_view view = view_of(s, stride, t);
+  int is_there = isfinite(view.origin);
+  if (is_there) ambulo__gait_obstacles_draw(stride->problem, &view, text);
+  if (is_there) ambulo__gait_held_draw(stride->problem, &s->held, pose, &view, text);
+  ambulo__svg_group_begin(text, "figure");
+  ambulo__gait_worn_draw(stride, &s->worn, k, 0, pose, &view, text);
+  draw_side(s, t, AMBULO__LEFT, "left", text);
+  draw_side(s, t, AMBULO__MIDDLE, "trunk", text);
+  draw_head(s, t, text);
+  draw_side(s, t, AMBULO__RIGHT, "right", text);
+  draw_contacts(s, stride, t, text);
+  if (is_there) ambulo__gait_patches_draw(stride, pose, &view, text);
+  ambulo__gait_worn_draw(stride, &s->worn, k, 1, pose, &view, text);
+  if (!s->model->foot_count) draw_pivot(s, t, text);
+  ambulo__svg_group_end(text);
+}
+
+/* what stands at time t, turned about where it stands */
+static void begin_turned(const strip *s, double t, ambulo__text_buffer *text) {
+  double x = ambulo__panel_time(s->panel, t);
+  if (s->slope != 0.0)
+    ambulo__svg_group_turned(text, "turned", degrees * s->slope, x, base_at(s, x));
 }
 
 static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_buffer *text) {
-  if (s->model->foot_count && !s->soil.count) draw_level_ground(s, text);
-  for (int k = 0; k < stride->samples && s->soil.count; k++)
-    draw_ground_below(s, stride->times[k], text);
-  for (int k = 0; k < stride->samples; k++) {
-    double t = stride->times[k];
-    ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
-    draw_surroundings(s, stride, t, text);
-    ambulo__svg_group_begin(text, "figure");
-    draw_side(s, t, AMBULO__LEFT, "left", text);
-    draw_side(s, t, AMBULO__MIDDLE, "trunk", text);
-    draw_head(s, t, text);
-    draw_side(s, t, AMBULO__RIGHT, "right", text);
-    draw_contacts(s, stride, t, text);
-    draw_patches(s, stride, t, text);
-    draw_worn(s, stride, k, text);
-    if (!s->model->foot_count) draw_pivot(s, t, text);
-    ambulo__svg_group_end(text);
+  if (s->model->foot_count && !s->soil.count) draw_straight_ground(s, text);
+  for (int pass = s->soil.count ? 0 : 1; pass < 2; pass++) {
+    for (int k = 0; k < stride->samples; k++) {
+      double t = stride->times[k];
+      ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
+      begin_turned(s, t, text);
+      if (pass)
+        draw_figure(s, stride, k, text);
+      else
+        draw_ground_below(s, stride, t, text);
+      if (s->slope != 0.0) ambulo__svg_group_end(text);
+    }
   }
 }
 
@@ -333,11 +328,11 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
   } else {
     ambulo__text_append(&label, "side view, one figure beside the other in time");
   }
-  double slope = 57.295779513082321 * ambulo__ground_slope(s->model);
+  double slope = degrees * ambulo__ground_slope(s->model);
   if (s->model->foot_count && fabs(slope) > 0.05) {
     ambulo__text_append(&label, slope > 0.0 ? ", uphill " : ", downhill ");
     ambulo__label_number(&label, fabs(slope), 1);
-    ambulo__text_append(&label, "\xc2\xb0 (drawn level)");
+    ambulo__text_append(&label, s->slope != 0.0 ? "\xc2\xb0" : "\xc2\xb0 (drawn level)");
   }
   ambulo__svg_label(text, "end", s->panel->x + s->panel->width + 80.0, s->panel->y - 23.0,
                     ambulo__text_data(&label));
@@ -351,6 +346,7 @@ static ambulo_status measure(const ambulo_problem *problem, const double *x,
   s->panel = panel;
   s->model = ambulo_problem_model(problem);
   s->ground = problem->definition.ground_height;
+  s->slope = drawn_slope(s->model);
   ambulo_status status = ambulo__skeleton_create(s->model, allocator, &s->skeleton);
   if (!status) status = ambulo__gait_ground_create(problem, allocator, &s->soil);
   if (!status) status = ambulo__stride_create(problem, x, EXTENT_SAMPLES, allocator, &dense);
@@ -371,8 +367,10 @@ static ambulo_status measure(const ambulo_problem *problem, const double *x,
 ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
                                         const ambulo_allocator *allocator, ambulo__panel *panel) {
   strip s = {.panel = NULL};
+  double rise = whole_rise(drawn_slope(ambulo_problem_model(problem)), panel);
+  panel->height += rise;
   ambulo_status status = measure(problem, x, panel, allocator, &s);
-  if (!status) panel->height = s.scale * fmax(s.high - s.low, 0.1) + head_room;
+  if (!status) panel->height = s.scale * fmax(s.high - s.low, 0.1) + head_room + rise;
   ambulo__gait_ground_free(&s.soil);
   ambulo__skeleton_free(&s.skeleton);
   return status;
@@ -385,10 +383,12 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
   ambulo_status status = measure(problem, x, panel, &text->allocator, &s);
   if (!status) status = ambulo__held_places_create(problem, x, &text->allocator, &s.held);
   if (!status) status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
+  if (!status) status = ambulo__worn_create(&shown, &text->allocator, &s.worn);
   if (!status) {
     draw_figures(&s, &shown, text);
     caption(&s, text);
   }
+  ambulo__worn_free(&s.worn);
   ambulo__stride_free(&shown);
   ambulo__free(&text->allocator, s.held.place);
   ambulo__gait_ground_free(&s.soil);

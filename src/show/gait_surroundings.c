@@ -1,5 +1,5 @@
 /* show/gait_surroundings.c - what is drawn beside the body, seen from the side
- * (gait_surroundings.h): the ground, obstacles and places to reach, loads, devices.
+ * (gait_surroundings.h): the ground, obstacles and places to reach, what hands hold.
  *
  * The surface of a contact at p with normal u rises by -u_f / u_n per metre forward. Two surfaces
  * that follow each other meet at the riser between their footholds.
@@ -9,8 +9,8 @@
 #include "base/arithmetic.h"
 #include "contact/row_families.h"
 #include "contact/contacts.h"
-#include "contact/devices.h"
 #include "contact/schedule.h"
+#include "show/gait_svg.h"
 #include "show/svg.h"
 
 #include <math.h>
@@ -20,6 +20,7 @@
 enum { PERIODS_BEFORE = 2, PERIODS_AFTER = 3 };
 
 static const double same_place = 1e-6; /* m */
+static const double gap_below = 3.0;   /* px */
 
 static int is_level(const ambulo_problem_definition *d) {
   if (d->rise != 0.0) return 0;
@@ -91,6 +92,40 @@ double ambulo__ground_slope(const ambulo_model *m) {
 
 double ambulo__surface_height(const ambulo__surface *surface, double x) {
   return surface->height + surface->slope * (x - surface->at);
+}
+
+/* from left to right */
+static void trace_ground(const ambulo__gait_ground *ground, const ambulo__figure_view *v,
+                         double half, double lowest, ambulo__text_buffer *text) {
+  int begun = 0;
+  for (int i = 0; i < ground->count; i++) {
+    const ambulo__surface *p = &ground->surface[i];
+    double x[2] = {fmax(p->from, v->origin - half / v->scale),
+                   fmin(p->to, v->origin + half / v->scale)};
+    for (int e = 0; e < 2 && x[0] <= x[1]; e++) {
+      double right = v->x + v->scale * (x[e] - v->origin);
+      double down = v->base - v->scale * ambulo__surface_height(p, x[e]);
+      /* what is far below the picture has no place in it */
+      down = fmin(down, lowest);
+      if (begun++)
+        ambulo__svg_path_line(text, right, down);
+      else
+        ambulo__svg_path_move(text, right, down);
+    }
+  }
+}
+
+void ambulo__gait_ground_draw(const ambulo__gait_ground *ground, const ambulo__figure_view *v,
+                              double half, double bottom, ambulo__text_buffer *text) {
+  if (!isfinite(v->x + v->origin)) return;
+  ambulo__svg_path_begin(text, "soil");
+  trace_ground(ground, v, half, bottom - gap_below, text);
+  ambulo__svg_path_line(text, v->x + half, bottom);
+  ambulo__svg_path_line(text, v->x - half, bottom);
+  ambulo__svg_path_end(text);
+  ambulo__svg_path_begin(text, "edge");
+  trace_ground(ground, v, half, bottom - gap_below, text);
+  ambulo__svg_path_end(text);
 }
 
 static const double across = 1e-6; /* m */
@@ -172,14 +207,34 @@ void ambulo__gait_obstacles_draw(const ambulo_problem *p, const ambulo__figure_v
   }
 }
 
+void ambulo__gait_patches_draw(const ambulo__stride *stride, const ambulo__pose *pose,
+                               const ambulo__figure_view *v, ambulo__text_buffer *text) {
+  static const char *const styles[] = {"trunk-mark", "left-mark", "right-mark"};
+  const ambulo_model *m = stride->model;
+  const ambulo_problem_definition *d = &stride->problem->definition;
+  for (int i = 0; i < m->patch_count; i++) {
+    const ambulo_contact *contact = ambulo__stride_contact(stride, m->foot_count + i, v->time);
+    if (!contact) continue;
+    const ambulo_point *point = &m->points[m->patches[i].point];
+    ambulo__contact_frame frame = ambulo__contact_frame_of(d, contact);
+    double long_half = m->patches[i].size[0] * v->scale, world[3];
+    double dx = long_half * ambulo__dot(m->forward, frame.forward);
+    double dy = long_half * ambulo__dot(m->up, frame.forward);
+    ambulo__pose_point(pose, point->link, point->position, world);
+    double x = v->x + v->scale * (ambulo__dot(m->forward, world) - v->origin);
+    double y = v->base - v->scale * (ambulo__dot(m->up, world) - d->ground_height);
+    if (isfinite(x + y))
+      ambulo__svg_line(text, styles[ambulo__gait_patch_side(m, i)], x - dx, y + dy, x + dx, y - dy);
+  }
+}
+
 /*
- * A box is an upright rectangle about its centre of mass. What hands push, and a load without a
- * size, has an arrow: 1 m for 500 N of `force`, and a disc as other loads have.
+ * A box is an upright rectangle about its centre of mass, of its size or, without one, of that of
+ * other loads of its mass (gait_worn.c). What hands push has an arrow: 1 m for 500 N of `force`.
  */
 
 static const double meters_per_newton = 1.0 / 500.0, barb = 6.0; /* barb: px */
-static const double seen_from = 0.05;   /* of the window: an arrow is drawn */
-static const double load_radius = 0.02; /* m, of 1 kg: as gait_worn.c */
+static const double seen_from = 0.05; /* of the window: an arrow is drawn */
 
 /* what stands in a row of points, the middle of one or two hands */
 static void middle_of(const ambulo_hold *hold, const double *points, double middle[3]) {
@@ -244,11 +299,14 @@ static void place_of(const ambulo_problem *p, const ambulo_hold *hold, const dou
 
 static void draw_box(const ambulo_hold *hold, double x, double y, double scale,
                      ambulo__text_buffer *text) {
-  double width = scale * hold->size[0], height = scale * hold->size[2];
-  if (width > 0.0 && height > 0.0)
-    ambulo__svg_rectangle(text, "box", x - 0.5 * width, y - 0.5 * height, width, height);
-  else if (hold->mass > 0.0)
-    ambulo__svg_circle(text, "load", x, y, scale * load_radius * cbrt(hold->mass));
+  double width = scale * hold->size[0], height = scale * hold->size[2], half[3];
+  int has_size = width > 0.0 && height > 0.0;
+  if (!has_size && !(hold->mass > 0.0)) return;
+  ambulo__load_half_size(hold->mass, half);
+  if (!has_size) width = 2.0 * scale * half[0];
+  if (!has_size) height = 2.0 * scale * half[2];
+  ambulo__svg_rectangle(text, has_size ? "box" : "load", x - 0.5 * width, y - 0.5 * height, width,
+                        height);
 }
 
 static void draw_arrow(const ambulo_hold *hold, double x, double y, double scale,
@@ -281,50 +339,4 @@ void ambulo__gait_held_draw(const ambulo_problem *p, const ambulo__held_places *
     if (ambulo__hold_window(hold, p->definition.duration, v->time) > seen_from)
       draw_arrow(hold, x, y, v->scale, text);
   }
-}
-
-/*
- * A device between two points is the line between them, one at a joint a disc there, while it does
- * at least a fiftieth of the most that it does. A load of m kg is a disc of .02 m m^(1/3).
- */
-
-static const double joint_radius = 0.035, gait_worn_load_radius = 0.02, least = 0.02;
-
-int ambulo__worn_count(const ambulo__stride *stride) {
-  return stride->devices + stride->model->load_count;
-}
-
-static int acts(const ambulo__stride *stride, int sample, int device) {
-  double most = 0.0;
-  for (int k = 0; k < stride->samples; k++)
-    most = fmax(most, fabs(stride->effort[(size_t)k * (size_t)stride->devices + (size_t)device]));
-  size_t at = (size_t)sample * (size_t)stride->devices + (size_t)device;
-  return most > 0.0 && fabs(stride->effort[at]) >= least * most;
-}
-
-/* the joint of a coordinate is at the origin of the link before it */
-static void place_device(const ambulo_model *model, const ambulo_device *device,
-                         ambulo__worn *mark) {
-  mark->style = "device";
-  if (device->coordinate < 0) {
-    memcpy(mark->link, device->link, sizeof mark->link);
-    memcpy(mark->at, device->position, sizeof mark->at);
-    return;
-  }
-  mark->radius = joint_radius;
-  mark->link[0] = model->links[model->coordinate_link[device->coordinate]].parent;
-}
-
-int ambulo__worn_at(const ambulo__stride *stride, int sample, int i, ambulo__worn *mark) {
-  const ambulo_model *model = stride->model;
-  *mark = (ambulo__worn){.style = "load"};
-  if (i < stride->devices) {
-    place_device(model, &stride->problem->definition.devices[i], mark);
-    return acts(stride, sample, i);
-  }
-  const ambulo__model_load *load = &model->loads[i - stride->devices];
-  mark->radius = gait_worn_load_radius * cbrt(load->mass);
-  mark->link[0] = load->link;
-  memcpy(mark->at[0], load->position, sizeof load->position);
-  return 1;
 }

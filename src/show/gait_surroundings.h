@@ -58,6 +58,15 @@ typedef struct ambulo__figure_view {
   double time, apart;    /* s; from one figure to the next */
 } ambulo__figure_view;
 
+/* The surfaces under a figure, `half` px to either side, and what is below them as far as `bottom`,
+ * px; nothing where the motion is not finite. */
+void ambulo__gait_ground_draw(const ambulo__gait_ground *ground, const ambulo__figure_view *view,
+                              double half, double bottom, ambulo__text_buffer *text);
+
+/* The surface that a patch in contact rests on, as long as the patch. */
+void ambulo__gait_patches_draw(const ambulo__stride *stride, const ambulo__pose *pose,
+                               const ambulo__figure_view *view, ambulo__text_buffer *text);
+
 /* What is beside the figure, and rings at places that a point has to be at about its time. */
 void ambulo__gait_obstacles_draw(const ambulo_problem *problem, const ambulo__figure_view *view,
                                  ambulo__text_buffer *text);
@@ -81,19 +90,42 @@ void ambulo__gait_held_draw(const ambulo_problem *problem, const ambulo__held_pl
                             const ambulo__pose *pose, const ambulo__figure_view *view,
                             ambulo__text_buffer *text);
 
-/* what a body wears and carries, as marks on its stick figures. */
+/* what a body wears and carries (gait_worn.c). */
 
-/* A line between two places, or a disc at the first of them. */
+typedef enum ambulo__worn_kind {
+  AMBULO__WORN_CABLE, /* a device between two points: its ends */
+  AMBULO__WORN_BRACE, /* one at a joint: cuffs on the bodies before and after it, and the joint */
+  AMBULO__WORN_LOAD   /* a box: its middle, and those of its front and its top */
+} ambulo__worn_kind;
+
 typedef struct ambulo__worn {
-  int link[2]; /* -1: the world */
-  double at[2][3];
-  double radius; /* m; 0: a line */
-  const char *style;
+  ambulo__worn_kind kind;
+  int link[3]; /* -1: the world */
+  double at[3][3];
+  double half[3]; /* of a load: half its size along forward, left and up in the rest pose, m */
 } ambulo__worn;
 
 /* Devices, then loads. */
-int ambulo__worn_count(const ambulo__stride *stride);
-/* Mark i at a sample; 0: a device that does nothing then. */
-int ambulo__worn_at(const ambulo__stride *stride, int sample, int i, ambulo__worn *mark);
+typedef struct ambulo__worn_list {
+  ambulo_allocator allocator;
+  int count;
+  ambulo__worn *mark;
+} ambulo__worn_list;
+
+/* Errors: E_MEMORY. */
+ambulo_status ambulo__worn_create(const ambulo__stride *stride, const ambulo_allocator *allocator,
+                                  ambulo__worn_list *list);
+void ambulo__worn_free(ambulo__worn_list *list); /* accepts a zero-filled one */
+/* 1 for a load, and for a device that does at least a fiftieth of the most that it does. */
+int ambulo__worn_acts(const ambulo__stride *stride, int sample, int i);
+/* Half the size of the box that stands for a load, m. */
+void ambulo__load_half_size(double mass, double half[3]);
+
+/* Behind the limbs (`ahead` 0): loads and braces. Before them: cuffs, hinges, cables; pale while
+ * they do nothing. A hinge is a ring for a spring, a disc for an actuator, a square for a damper.
+ */
+void ambulo__gait_worn_draw(const ambulo__stride *stride, const ambulo__worn_list *list, int sample,
+                            int ahead, const ambulo__pose *pose, const ambulo__figure_view *view,
+                            ambulo__text_buffer *text);
 
 #endif

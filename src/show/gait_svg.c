@@ -133,7 +133,7 @@ static int has_sides(const ambulo_model *model) {
 
 /* picture below the heading; the height is known before anything is drawn */
 typedef struct layout {
-  ambulo__panel strip, bars, axis, curves, forces, people;
+  ambulo__panel strip, bars, axis, plan, curves, forces, people;
   double height;
 } layout;
 
@@ -150,9 +150,13 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x,
   page->bars.y = strip.y + strip.height + 30.0;
   page->axis = page->bars;
   page->axis.y = page->bars.y + 19.0 * (double)lanes + (lanes ? 3.0 : -12.0);
-  page->height = page->axis.y + 34.0;
+  page->plan = strip;
+  page->plan.y = page->axis.y + 52.0;
+  if (!status) status = ambulo__gait_plan_height(stride, &page->plan);
+  double above = page->plan.height > 0.0 ? page->plan.height + 30.0 : 0.0;
+  page->height = page->axis.y + 34.0 + above;
   if (style->without_curves) return status;
-  double top = style->without_strip ? 120.0 : page->axis.y + 78.0;
+  double top = style->without_strip ? 120.0 : page->axis.y + 78.0 + above;
   double rows = style->powers ? 252.0 : 0.0;
   ambulo__panel curves = {margin, top, page_width - 2.0 * margin, 430.0 + rows, stride->duration};
   page->curves = curves;
@@ -170,6 +174,7 @@ static ambulo_status draw_strip(const ambulo__stride *stride, const double *x, c
   ambulo_status status = ambulo__gait_strip(stride->problem, x, &page->strip, text);
   ambulo__gait_bars(stride, &page->bars, text);
   ambulo__time_axis(&page->axis, 9, "s", text);
+  if (!status) status = ambulo__gait_plan(stride, &page->plan, text);
   return status;
 }
 

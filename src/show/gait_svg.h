@@ -51,6 +51,14 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
 ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
                                         const ambulo_allocator *allocator, ambulo__panel *panel);
 
+/* 1: some foot stands with another heading than before. Such a motion is shown from above, too. */
+int ambulo__gait_turns(const ambulo_problem *problem);
+/* Sets panel->height; 0 where the motion does not turn. Errors: E_MEMORY. */
+ambulo_status ambulo__gait_plan_height(const ambulo__stride *stride, ambulo__panel *panel);
+/* Footprints and the way of the first body that weighs. Errors: E_MEMORY. */
+ambulo_status ambulo__gait_plan(const ambulo__stride *stride, const ambulo__panel *panel,
+                                ambulo__text_buffer *text);
+
 /* 1 for feet, and for patches that are in contact at some time. */
 int ambulo__gait_shows(const ambulo__stride *stride, int effector);
 /* Of its middle at q = 0. */

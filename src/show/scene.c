@@ -252,8 +252,8 @@ static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s) {
                                 &json->text->allocator, &body);
   if (!status) {
     ambulo__scene_bones(json, &body);
-    ambulo__scene_worn(json, s, &body);
-    status = ambulo__scene_points(json, &body);
+    status = ambulo__scene_worn(json, s, &body);
+    if (!status) status = ambulo__scene_points(json, &body);
   }
   ambulo__scene_body_free(&body);
   return status;

@@ -59,8 +59,10 @@ void ambulo__scene_json_place(ambulo__json *json, const char *key, const double 
 
 /* "ground", "obstacles", "places", "contacts". Errors: E_MEMORY. */
 ambulo_status ambulo__scene_surroundings(ambulo__json *json, const ambulo__stride *stride);
-/* "worn": devices and loads, whose points are listed by it. */
-void ambulo__scene_worn(ambulo__json *json, const ambulo__stride *stride, ambulo__scene_body *body);
+/* "held" and "worn": what hands hold; devices and loads. Their points are listed by it. Errors:
+ * E_MEMORY. */
+ambulo_status ambulo__scene_worn(ambulo__json *json, const ambulo__stride *stride,
+                                 ambulo__scene_body *body);
 
 /* a curve over time as whole numbers of a unit (scene.h). */
 

@@ -174,29 +174,46 @@ static void held(ambulo__json *json, const ambulo__stride *s, ambulo__scene_body
   ambulo__json_close(json, ']');
 }
 
-void ambulo__scene_worn(ambulo__json *json, const ambulo__stride *s, ambulo__scene_body *body) {
+static void worn_point(ambulo__json *json, const char *key, const ambulo__worn *mark, int point,
+                       ambulo__scene_body *body) {
+  ambulo__json_integer(json, key,
+                       ambulo__scene_body_point(body, mark->link[point], mark->at[point]));
+}
+
+static void load(ambulo__json *json, const ambulo__stride *s, int i, const ambulo__worn *mark,
+                 ambulo__scene_body *body) {
+  int link = mark->link[0];
+  double size[3];
+  for (int k = 0; k < 3; k++) size[k] = 2.0 * mark->half[k];
+  worn_point(json, "ahead", mark, 1, body);
+  worn_point(json, "above", mark, 2, body);
+  ambulo__scene_json_place(json, "size", size);
+  ambulo__json_text(json, "side",
+                    ambulo__scene_side(link < 0 ? AMBULO__MIDDLE : body->skeleton.side[link]));
+  ambulo__json_number(json, "mass", s->model->loads[i].mass);
+}
+
+ambulo_status ambulo__scene_worn(ambulo__json *json, const ambulo__stride *s,
+                                 ambulo__scene_body *body) {
+  ambulo__worn_list list;
+  ambulo_status status = ambulo__worn_create(s, &body->allocator, &list);
+  if (status) return status;
   held(json, s, body);
   ambulo__json_open(json, "worn", '[');
-  for (int i = 0; i < ambulo__worn_count(s); i++) {
-    ambulo__worn mark;
-    (void)ambulo__worn_at(s, 0, i, &mark); /* an idle device has no effort */
+  for (int i = 0; i < list.count; i++) {
+    const ambulo__worn *mark = &list.mark[i];
     ambulo__json_open(json, NULL, '{');
     ambulo__json_text(json, "kind", i < s->devices ? "device" : "load");
-    ambulo__json_integer(json, "from", ambulo__scene_body_point(body, mark.link[0], mark.at[0]));
-    if (mark.radius > 0.0) {
-      ambulo__json_number(json, "radius", mark.radius);
-    } else {
-      ambulo__json_integer(json, "to", ambulo__scene_body_point(body, mark.link[1], mark.at[1]));
-    }
-    if (i < s->devices) {
+    worn_point(json, "from", mark, 0, body);
+    if (i < s->devices) worn_point(json, "to", mark, 1, body);
+    if (mark->kind == AMBULO__WORN_BRACE) worn_point(json, "hinge", mark, 2, body);
+    if (i < s->devices)
       device(json, s, i);
-    } else {
-      int link = mark.link[0];
-      ambulo__json_text(json, "side",
-                        ambulo__scene_side(link < 0 ? AMBULO__MIDDLE : body->skeleton.side[link]));
-      ambulo__json_number(json, "mass", s->model->loads[i - s->devices].mass);
-    }
+    else
+      load(json, s, i - s->devices, mark, body);
     ambulo__json_close(json, '}');
   }
   ambulo__json_close(json, ']');
+  ambulo__worn_free(&list);
+  return AMBULO_OK;
 }

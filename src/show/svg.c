@@ -39,12 +39,20 @@ static const char style_sheet[] =
     ".device{fill:none;stroke:#2e8b57;stroke-width:2.6;stroke-linecap:round}\n"
     ".worn{stroke-width:2.2;stroke-dasharray:.5 4.5;stroke-linecap:round}\n"
     ".device-text{fill:#23704a;font-weight:bold}\n"
-    ".load{fill:#5b6470}\n"
+    ".brace{fill:none;stroke:#2e8b57;stroke-width:10;stroke-opacity:.45;stroke-linecap:round;"
+    "stroke-linejoin:round}\n"
+    ".motor{fill:#2e8b57}\n"
+    ".idle{opacity:.35}\n"
+    ".load{fill:#aab3bd;stroke:#3f4853;stroke-width:1.4;stroke-linejoin:round}\n"
     ".box{fill:#d9b382;stroke:#7a5526;stroke-width:1.4}\n"
     ".push{stroke:#b3261e;stroke-width:2.4;stroke-linecap:round}\n"
     ".left-mark{stroke:#e0662f;stroke-width:4;stroke-linecap:round}\n"
     ".right-mark{stroke:#2377bd;stroke-width:4;stroke-linecap:round}\n"
     ".trunk-mark{stroke:#1d2733;stroke-width:4;stroke-linecap:round}\n"
+    ".left-print,.right-print,.trunk-print{fill-opacity:.3;stroke-width:1.4}\n"
+    ".left-print{fill:#e0662f;stroke:#e0662f}\n"
+    ".right-print{fill:#2377bd;stroke:#2377bd}\n"
+    ".trunk-print{fill:#1d2733;stroke:#1d2733}\n"
     ".left-bar{fill:#e0662f}\n"
     ".right-bar{fill:#2377bd}\n"
     ".trunk-bar{fill:#1d2733}\n"
@@ -174,6 +182,18 @@ void ambulo__svg_label_sized(ambulo__text_buffer *text, const char *style, doubl
 void ambulo__svg_group_begin(ambulo__text_buffer *text, const char *style) {
   open_element(text, "g", style);
   ambulo__text_append(text, ">\n");
+}
+
+void ambulo__svg_group_turned(ambulo__text_buffer *text, const char *style, double degrees,
+                              double x, double y) {
+  open_element(text, "g", style);
+  ambulo__text_append(text, " transform=\"rotate(");
+  number(text, -degrees);
+  ambulo__text_append_char(text, ' ');
+  number(text, x);
+  ambulo__text_append_char(text, ' ');
+  number(text, y);
+  ambulo__text_append(text, ")\">\n");
 }
 
 void ambulo__svg_group_end(ambulo__text_buffer *text) {

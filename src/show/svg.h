@@ -30,6 +30,9 @@ void ambulo__svg_label_sized(ambulo__text_buffer *text, const char *style, doubl
                              double font_size, const char *label);
 
 void ambulo__svg_group_begin(ambulo__text_buffer *text, const char *style);
+/* Turned about (x, y), to the left. */
+void ambulo__svg_group_turned(ambulo__text_buffer *text, const char *style, double degrees,
+                              double x, double y);
 void ambulo__svg_group_end(ambulo__text_buffer *text);
 
 /* A path: begin, then moves and lines, then end. */

@@ -76,7 +76,8 @@ static void test_arm(void **state) {
   ambulo_model_free(model);
 }
 
-/* what is drawn level although it is not says so */
+/* figures stand upright on one line that rises as the ground does; what is too steep is drawn level
+ * and says so */
 static void test_slope(void **state) {
   (void)state;
   walk w;
@@ -89,9 +90,54 @@ static void test_slope(void **state) {
   ambulo_model *model = w.model;
   ambulo__model_tilt(model, 5.0 / 57.295779513082321);
   assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
-  assert_non_null(strstr(ambulo__text_data(&text), "uphill 5\xc2\xb0 (drawn level)"));
+  const char *svg = ambulo__text_data(&text), *ground = strstr(svg, "<line class=\"ground\"");
+  double x1, y1, x2, y2;
+  assert_true(is_xml(svg));
+  assert_non_null(strstr(svg, "uphill 5\xc2\xb0<"));
+  assert_non_null(ground);
+  assert_int_equal(sscanf(ground,
+                          "<line class=\"ground\" x1=\"%lf\" y1=\"%lf\" x2=\"%lf\" y2=\"%lf", &x1,
+                          &y1, &x2, &y2),
+                   4);
+  assert_close((y1 - y2) / (x2 - x1), tan(5.0 / 57.295779513082321), 1e-4);
+  int figures = occurrences(svg, "<g class=\"figure\">");
+  assert_int_equal(occurrences(svg, "<g class=\"turned\" transform=\"rotate(-5 "), figures);
+  for (const char *turned = svg; (turned = strstr(turned, "rotate(-5 ")) != NULL; turned++) {
+    double x, y; /* it turns about a place on the ground */
+    assert_int_equal(sscanf(turned, "rotate(-5 %lf %lf)", &x, &y), 2);
+    assert_close(y, y1 + (y2 - y1) * (x - x1) / (x2 - x1), 0.03);
+  }
+  ambulo__text_clear(&text);
+  ambulo__model_tilt(model, 65.0 / 57.295779513082321);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
+  assert_non_null(strstr(ambulo__text_data(&text), "(drawn level)"));
+  assert_null(strstr(ambulo__text_data(&text), "rotate("));
   ambulo__text_free(&text);
   walk_close(&w);
+}
+
+/* a motion whose feet turn is shown from above, to one scale; others are not */
+static void turns_are_seen_from_above(void **state) {
+  (void)state;
+  static const char *const names[] = {"models/walk_turn.yaml", "models/squat.yaml",
+                                      "models/walk_normal.yaml"};
+  for (int i = 0; i < 3; i++) {
+    ambulo_problem *problem = NULL;
+    ambulo_result *result = NULL;
+    ambulo__text_buffer text;
+    ambulo__text_init(&text, NULL);
+    assert_int_equal(ambulo_problem_load(names[i], NULL, 0, NULL, NULL, &problem), AMBULO_OK);
+    assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
+    assert_int_equal(ambulo__gait_svg(problem, result, NULL, &text), AMBULO_OK);
+    const char *svg = ambulo__text_data(&text);
+    assert_true(is_xml(svg));
+    assert_int_equal(occurrences(svg, "From above"), i == 0);
+    assert_int_equal(occurrences(svg, "<path class=\"left-print\""), i ? 0 : 2);
+    assert_int_equal(occurrences(svg, "<path class=\"right-print\""), i ? 0 : 3);
+    ambulo__text_free(&text);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+  }
 }
 
 /* each figure stands on its own piece of stairs, instead of all on one line */
@@ -156,6 +202,7 @@ int main(void) {
                                      cmocka_unit_test(test_walk),
                                      cmocka_unit_test(test_slope),
                                      cmocka_unit_test(test_stairs),
+                                     cmocka_unit_test(turns_are_seen_from_above),
                                      cmocka_unit_test(test_not_finite),
                                      cmocka_unit_test(test_arm)};
   return cmocka_run_group_tests_name("picture/gait_svg", tests, NULL, NULL);

@@ -234,9 +234,16 @@ static void seats_and_places(void **state) {
   scene carrying = open_scene("models/walk.yaml", load, 1, NULL, 1.0);
   const ambulo__yaml_node *worn = ambulo__yaml_get(carrying.read.root, "worn");
   assert_int_equal(ambulo__yaml_items(worn), 2);
-  for (int i = 0; i < 2; i++)
-    assert_close(ambulo__yaml_number(ambulo__yaml_get(ambulo__yaml_item(worn, i), "mass"), 0),
-                 i ? 2 : 8, 0);
+  for (int i = 0; i < 2; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(worn, i);
+    const ambulo__yaml_node *size = ambulo__yaml_get(item, "size");
+    int middle = ambulo__yaml_integer(ambulo__yaml_get(item, "from"), 0, 9999, -1);
+    int front = ambulo__yaml_integer(ambulo__yaml_get(item, "ahead"), 0, 9999, -1);
+    assert_close(ambulo__yaml_number(ambulo__yaml_get(item, "mass"), 0), i ? 2 : 8, 0);
+    assert_true(middle >= 0 && front >= 0 && middle != front);
+    assert_close(ambulo__yaml_number(ambulo__yaml_item(size, 2), 0),
+                 1.4 * cbrt((i ? 2.0 : 8.0) / 500.0), 1e-3);
+  }
   shut_scene(&carrying);
 
   scene reach = open_scene("models/reach_standing.yaml", NULL, 0, NULL, 1.0);

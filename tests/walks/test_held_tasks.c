@@ -155,7 +155,8 @@ static void check_grip(const task *k) {
   }
 }
 
-/* hips, knees and ankles bend, and none to the end of its range; no joint is weaker than its torque */
+/* hips, knees and ankles bend, and none to the end of its range; no joint is weaker than its torque
+ */
 static void check_limits(const task *k) {
   static const char *const bent[] = {"hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
   for (int i = 0; i < TIMES; i++) {

@@ -304,8 +304,8 @@ static void runners_bounce_on_bent_knees(void **state) {
   }
 }
 
-/* As a man who jumps: knees bend to 85 to 110 degrees, arms swing back and up, and the centre of mass
- * rises by 0.3 m and more over where it stands. No joint is weaker than its torque. */
+/* As a man who jumps: knees bend to 85 to 110 degrees, arms swing back and up, and the centre of
+ * mass rises by 0.3 m and more over where it stands. No joint is weaker than its torque. */
 static void it_jumps_as_people(run *r) {
   static double times[SAMPLES], q[COORDINATES * SAMPLES], tau[COORDINATES * SAMPLES];
   const ambulo_model *m = ambulo_problem_model(r->problem);

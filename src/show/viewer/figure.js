@@ -1,7 +1,7 @@
 // A body: capsules along its bones, shoes on its soles, what it carries; posed at a time.
 import {
-  BufferAttribute, BufferGeometry, CapsuleGeometry, Color, Group, Mesh, MeshStandardMaterial,
-  Quaternion, SphereGeometry, BoxGeometry, CylinderGeometry, Vector3,
+  BufferAttribute, BufferGeometry, CapsuleGeometry, Color, Group, Matrix4, Mesh,
+  MeshStandardMaterial, Quaternion, SphereGeometry, BoxGeometry, CylinderGeometry, Vector3,
 } from "three";
 import { sampleAt, valueAt } from "./decode.js";
 import { Trunk, limb } from "./limbs.js";
@@ -10,7 +10,8 @@ import { Trunk, limb } from "./limbs.js";
 export const toView = (f, l, u, out = new Vector3()) => out.set(f, u, -l);
 
 const up = new Vector3(0, 1, 0), way = new Vector3(), one = new Vector3(), other = new Vector3();
-const turn = new Quaternion();
+const turn = new Quaternion(), basis = new Matrix4();
+const braceWidth = 0.078; // from the middle of a limb to a bar, m
 
 export function pointAt(scene, point, where, out) {
   const [f, l, u] = scene.points[point];
@@ -165,14 +166,22 @@ export class Figure {
     const pair = ["left", "right"].map((side) => loads.filter((w) => w.side === side));
     if (pair[0].length === 1 && pair[1].length === 1 && loads.length === 2 && this.keepApart(pair))
       return this.addBox(pair[0][0], pair[1][0]);
-    for (const load of loads) {
-      const size = 0.09 * Math.cbrt(load.mass);
-      const mesh = this.addMesh(new BoxGeometry(0.7 * size, 1.1 * size, 0.9 * size),
-        this.materials.carried);
-      this.parts.push((where) => pointAt(this.scene, load.from, where, mesh.position));
-    }
+    for (const load of loads) this.addLoad(load);
     for (const device of this.scene.worn.filter((w) => w.kind === "device")) this.addDevice(device);
     return undefined;
+  }
+
+  // a box about a point, along those in the middles of its front and its top
+  addLoad(load) {
+    const [f, l, u] = load.size ?? [0.1, 0.14, 0.2]; // scenes of older versions have none
+    const mesh = this.addMesh(new BoxGeometry(f, u, l), this.materials.carried);
+    this.parts.push((where) => {
+      pointAt(this.scene, load.from, where, mesh.position);
+      if (load.ahead === undefined) return;
+      pointAt(this.scene, load.ahead, where, one).sub(mesh.position).normalize();
+      pointAt(this.scene, load.above, where, other).sub(mesh.position).normalize();
+      mesh.quaternion.setFromRotationMatrix(basis.makeBasis(one, other, way.crossVectors(one, other)));
+    });
   }
 
   // between the hands while they hold it; before and after, where they took it and put it down
@@ -215,28 +224,52 @@ export class Figure {
     });
   }
 
-  addDevice(device) {
-    const most = Math.max(...device.effort.map(Math.abs), 1e-9);
-    const joint = device.radius !== undefined;
-    const geometry = joint ? new CylinderGeometry(0.075, 0.075, 0.2, 24)
-      : new CylinderGeometry(0.012, 0.012, 1, 10);
-    if (joint) geometry.rotateX(Math.PI / 2);
-    const mesh = this.addMesh(geometry, this.materials.device);
+  // a rod of the device's colour between two places, which moves
+  addRod(radius, place) {
+    const mesh = this.addMesh(new CylinderGeometry(radius, radius, 1, 12), this.materials.device);
     this.parts.push((where) => {
-      const share = Math.abs(valueAt(device.effort, where)) / most;
-      pointAt(this.scene, device.from, where, one);
-      if (joint) {
-        mesh.position.copy(one);
-        mesh.scale.setScalar(0.55 + 0.45 * share);
-        return;
-      }
-      pointAt(this.scene, device.to, where, other);
+      const thick = place(where, one, other);
       way.subVectors(other, one);
       const now = Math.max(way.length(), 1e-6);
       mesh.position.addVectors(one, other).multiplyScalar(0.5);
-      mesh.scale.set(0.5 + share, now, 0.5 + share);
+      mesh.scale.set(thick, now, thick);
       mesh.quaternion.copy(turn.setFromUnitVectors(up, way.divideScalar(now)));
     });
+  }
+
+  // a cable, or a brace: cuffs around the limbs, bars on both sides from them to the hinge
+  addDevice(device) {
+    const most = Math.max(...device.effort.map(Math.abs), 1e-9);
+    const share = (where) => Math.abs(valueAt(device.effort, where)) / most;
+    const { from, to = from, hinge = device.radius === undefined ? undefined : from } = device;
+    if (hinge === undefined) {
+      this.addRod(0.012, (where, a, b) => {
+        pointAt(this.scene, from, where, a);
+        pointAt(this.scene, to, where, b);
+        return 0.5 + share(where);
+      });
+      return;
+    }
+    for (const end of [from, to]) {
+      for (const side of [-braceWidth, braceWidth])
+        this.addRod(0.013, (where, a, b) => {
+          pointAt(this.scene, end, where, a).z += side;
+          pointAt(this.scene, hinge, where, b).z += side;
+          return 1;
+        });
+      this.addRod(braceWidth + 0.008, (where, a, b) => {
+        pointAt(this.scene, end, where, a);
+        pointAt(this.scene, hinge, where, b).sub(a).setLength(0.03);
+        b.add(a);
+        return 1;
+      });
+    }
+    for (const side of [-braceWidth, braceWidth])
+      this.addRod(0.05, (where, a, b) => {
+        pointAt(this.scene, hinge, where, a).z += side - 0.012;
+        b.copy(a).z += 0.024;
+        return 0.55 + 0.45 * share(where);
+      });
   }
 
   // thin lines seen through the body, or the body alone
