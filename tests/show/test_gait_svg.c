@@ -116,30 +116,6 @@ static void test_slope(void **state) {
   walk_close(&w);
 }
 
-/* a motion whose feet turn is shown from above, to one scale; others are not */
-static void turns_are_seen_from_above(void **state) {
-  (void)state;
-  static const char *const names[] = {"models/walk_turn.yaml", "models/squat.yaml",
-                                      "models/walk_normal.yaml"};
-  for (int i = 0; i < 3; i++) {
-    ambulo_problem *problem = NULL;
-    ambulo_result *result = NULL;
-    ambulo__text_buffer text;
-    ambulo__text_init(&text, NULL);
-    assert_int_equal(ambulo_problem_load(names[i], NULL, 0, NULL, NULL, &problem), AMBULO_OK);
-    assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
-    assert_int_equal(ambulo__gait_svg(problem, result, NULL, &text), AMBULO_OK);
-    const char *svg = ambulo__text_data(&text);
-    assert_true(is_xml(svg));
-    assert_int_equal(occurrences(svg, "From above"), i == 0);
-    assert_int_equal(occurrences(svg, "<path class=\"left-print\""), i ? 0 : 2);
-    assert_int_equal(occurrences(svg, "<path class=\"right-print\""), i ? 0 : 3);
-    ambulo__text_free(&text);
-    ambulo_result_free(result);
-    ambulo_problem_free(problem);
-  }
-}
-
 /* each figure stands on its own piece of stairs, instead of all on one line */
 static void test_stairs(void **state) {
   (void)state;
@@ -202,7 +178,7 @@ int main(void) {
                                      cmocka_unit_test(test_walk),
                                      cmocka_unit_test(test_slope),
                                      cmocka_unit_test(test_stairs),
-                                     cmocka_unit_test(turns_are_seen_from_above),
+
                                      cmocka_unit_test(test_not_finite),
                                      cmocka_unit_test(test_arm)};
   return cmocka_run_group_tests_name("picture/gait_svg", tests, NULL, NULL);
