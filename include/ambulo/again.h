@@ -27,12 +27,13 @@ AMBULO_API void ambulo_multipliers_free(ambulo_multipliers *multipliers); /* acc
 /* -------------------------------------------------------- the solver object
  *
  * One problem solved again and again, as a controller does: the state that it starts from, the
- * places that it is to reach and the motion that it follows change, and each time a few iterations
+ * places where feet stand and the motion that it follows change, and each time a few iterations
  * continue from where the last ones ended. The object keeps the problem, its factors, the motion
  * and the multipliers. Nothing is checked or built anew between two solves, unless parts of the
  * body come near each other; and there is no audit unless one is asked for.
  *
- *     create --> start --> [ set_end, set_reference, shift --> iterate ] ... --> result --> free
+ *     create --> start --> [ set_end, set_foothold, set_reference, shift --> iterate ] ...
+ *            --> result --> free
  *
  * An object belongs to one thread at a time. */
 typedef struct ambulo_solver ambulo_solver;
@@ -70,6 +71,14 @@ ambulo_solver_start(ambulo_solver *solver, const double *x, const ambulo_multipl
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_set_end(ambulo_solver *solver,
                                                                 int coordinate, int order,
                                                                 int final, double value);
+/* Another foothold of a contact (ambulo_problem_contact) and of all contacts of its stance: along
+ * forward, along left (m), and the heading (rad). Heights and times stay. E_ARGUMENT: no such
+ * contact, or ends that match; E_PROBLEM: out of reach of the legs, or rows would begin or end;
+ * E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_set_foothold(ambulo_solver *solver,
+                                                                     int contact,
+                                                                     const double place[2],
+                                                                     double heading);
 /* Another reference [node_count][d] of a term that follows one. E_ARGUMENT: it follows none. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_set_reference(ambulo_solver *solver,
                                                                       int term,
@@ -86,6 +95,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_shift(ambulo_solver *sol
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_iterate(ambulo_solver *solver,
                                                                 int iterations, double seconds,
                                                                 const ambulo_solver_state **state);
+
+/* Its problem, with all that was set: for motions of x. It belongs to the solver. */
+AMBULO_API const ambulo_problem *ambulo_solver_problem(const ambulo_solver *solver);
 
 /* The point where the solver stands, judged as ambulo_audit_point does, with multipliers. The
  * result belongs to the caller; what it names, to the solver. */

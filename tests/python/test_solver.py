@@ -31,6 +31,22 @@ class Solvers(Case):
         with self.assertRaisesRegex(ValueError, "closed"):
             solver.iterate()
 
+    def test_another_foothold(self):
+        """The same as a problem with that foothold; the solver's own problem has it."""
+        start = TOP / "tests" / "support" / "rigid_walk_start.yaml"
+        there = [f"contacts[{i}].{key}" for i in (4, 5, 6) for key in ("place=[0.55, -0.06]", "heading=4")]
+        with ambulo.Problem.load(start) as problem, ambulo.Problem.load(start, there) as other:
+            solver = ambulo.Solver(problem)
+            solver.set_foothold(5, [0.55, -0.06], heading=math.radians(4))
+            self.assertEqual([c.place[0] for c in solver.problem.contacts[4:7]], 3 * [0.55])
+            x = 0.1 * numpy.sin(numpy.arange(problem.variable_count))
+            self.close(solver.problem.motion(x).tau, other.motion(x).tau)
+            self.assertGreater(abs(problem.motion(x).tau - other.motion(x).tau).max(), 1.0)
+            with self.assertRaises(ambulo.AmbuloError):
+                solver.set_foothold(5, [3, 0])
+            with self.assertRaises(ValueError):
+                solver.set_foothold(5, [0.5, 0, 0])
+
     def test_starts(self):
         """A Result, a file and unknowns are starts."""
         with ambulo.Problem.load(REACH) as problem:

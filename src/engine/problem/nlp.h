@@ -292,6 +292,34 @@ ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
+/* Into an empty table. On failure what there is of it is the problem's to free. */
+ambulo_status ambulo__problem_build_rows(ambulo_problem *problem, ambulo_diagnostics *diagnostics);
+
+/* ------------------------------------------------- another foothold (moved_foothold.c) */
+
+/* What depends on where contacts are; to be swapped with that of the problem. */
+typedef struct ambulo__moved {
+  ambulo__row_table table;
+  ambulo__row_runs row_runs;
+  double *ground;
+  int contact; /* the first on that foothold */
+  double place[2], heading;
+} ambulo__moved;
+
+/* Moves the foothold of a contact: all contacts of its stance stand on `place` (along forward,
+ * along left; m), turned by `heading` (rad). Rows keep their number, order and nodes. *moved gets
+ * what was there, and is freed by the caller. Errors, which change nothing: E_ARGUMENT for a
+ * contact that is not there or returns at the other end; E_PROBLEM for a place out of reach, or
+ * where other rows would be needed; E_MEMORY. */
+ambulo_status ambulo__problem_move_foothold(ambulo_problem *problem, int contact,
+                                            const double place[2], double heading,
+                                            ambulo__moved *moved);
+/* Back to what *moved has; *moved gets what there was. */
+void ambulo__problem_swap_moved(ambulo_problem *problem, ambulo__moved *moved);
+void ambulo__moved_free(const ambulo_problem *problem, ambulo__moved *moved);
+/* 1: the rows of *moved stand on the same channels as those of the problem. */
+int ambulo__moved_is_alike(const ambulo_problem *problem, const ambulo__moved *moved);
+
 /* ---------------------------------------------------------- memory (workspace.c) */
 
 /* How much a problem takes, before it is taken; bytes, as doubles: absurd sizes do not overflow

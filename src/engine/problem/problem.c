@@ -99,7 +99,7 @@ static void add_user_rows(ambulo_problem *p) {
   }
 }
 
-static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+ambulo_status ambulo__problem_build_rows(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   ambulo__gait_context context = {d,        p->model, p->basis,  p->channels,
                                   p->times, p->nodes, p->active, p->before};
@@ -138,6 +138,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
                          "a constraint row has more terms than its form holds");
   if (p->table.status) return p->table.status;
   p->rows = p->table.row_count;
+  p->equalities = 0;
   for (int r = 0; r < p->rows; r++) p->equalities += p->table.rows[r].relation == AMBULO_EQUAL;
   return ambulo__row_runs_create(&p->table, ambulo__channel_count(&p->channels), &p->allocator,
                                  &p->row_runs);
@@ -287,7 +288,7 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   if (!status)
     status =
         ambulo__devices_tell(&p->definition, &p->allocator, p->times, p->nodes, &p->time_factors);
-  if (!status) status = build_rows(p, diagnostics);
+  if (!status) status = ambulo__problem_build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
   return AMBULO_OK;

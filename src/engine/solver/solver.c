@@ -5,6 +5,9 @@
  *
  *     prescribed end   D^o q_i(t_e) - value = 0: the row's constant is -value
  *     reference        read where the term is evaluated
+ *     foothold         constants of the rows of contact, and what the kernels know of the ground
+ *                      (problem/moved_foothold.c); rows of a foot that begins to turn stand on more
+ *                      channels, so that the factors are set up anew for them
  *
  * An iterate is the pipeline beside the last solution (method/pipeline.h): back onto the
  * equalities, which have moved, then so many inner solves of NLopt's AUGLAG with the multipliers at
@@ -160,6 +163,40 @@ ambulo_status ambulo_solver_set_end(ambulo_solver *s, int coordinate, int order,
   return AMBULO_E_ARGUMENT;
 }
 
+/* an engine for rows that stand on other channels, with the multipliers of the last one */
+static ambulo_status renew_engine(ambulo_solver *s) {
+  ambulo_multipliers *m = NULL;
+  ambulo__engine *engine = NULL;
+  ambulo_status status = AMBULO_OK;
+  if (s->is_beside) status = ambulo__multipliers_save(s->engine, &s->allocator, &m);
+  if (m) m->objective = s->state.objective;
+  if (!status)
+    status = ambulo__engine_create(s->problem, s->x, &s->allocator, &s->run, NULL, &engine);
+  if (!status) {
+    ambulo__engine_free(s->engine);
+    s->engine = engine;
+    ambulo__multipliers_transfer(m, engine);
+  }
+  ambulo_multipliers_free(m);
+  return status;
+}
+
+ambulo_status ambulo_solver_set_foothold(ambulo_solver *s, int contact, const double place[2],
+                                         double heading) {
+  ambulo__moved moved;
+  if (!s || !place || !isfinite(place[0]) || !isfinite(place[1]) || !isfinite(heading))
+    return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__problem_move_foothold(s->problem, contact, place, heading, &moved);
+  if (status) return status;
+  if (!ambulo__moved_is_alike(s->problem, &moved)) {
+    status = renew_engine(s);
+    if (status) ambulo__problem_swap_moved(s->problem, &moved);
+  }
+  ambulo__moved_free(s->problem, &moved);
+  forget_values(s);
+  return status;
+}
+
 ambulo_status ambulo_solver_set_reference(ambulo_solver *s, int term, const double *reference) {
   if (!s || !reference || term < 0 || term >= s->problem->definition.term_count)
     return AMBULO_E_ARGUMENT;
@@ -172,6 +209,10 @@ ambulo_status ambulo_solver_set_reference(ambulo_solver *s, int term, const doub
   memcpy(own, reference, count * sizeof *own);
   forget_values(s);
   return AMBULO_OK;
+}
+
+const ambulo_problem *ambulo_solver_problem(const ambulo_solver *s) {
+  return s ? s->problem : NULL;
 }
 
 /* states at the breakpoints, `time` later */

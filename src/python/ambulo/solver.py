@@ -7,6 +7,7 @@ import numpy
 from . import _records as records
 from ._native import Call, Handle, Owner, ffi, lib
 from .mechanics import doubles
+from .problem import Problem
 from .records import from_c
 from .result import Result
 from .solving import Run, start_of
@@ -24,7 +25,8 @@ class Iterate(NamedTuple):
 
 class Solver(Owner):
     """A problem that is solved again and again, as a controller does. Its prescribed ends, its
-    references and its time change; a few iterations continue from where the last ones ended.
+    footholds, its references and its time change; a few iterations continue from where the last
+    ones ended.
 
         solver = ambulo.Solver(problem)
         solver.iterate(150)
@@ -35,16 +37,24 @@ class Solver(Owner):
     _instead = "make another of its problem"
 
     def __init__(self, problem, *, options: Optional[records.Options] = None, **settings):
-        self.problem = problem._twin()
-        run, out = Run(self.problem, options, settings, None, "keep"), ffi.new("ambulo_solver **")
+        held, out = problem._held, ffi.new("ambulo_solver **")
+        run = Run(problem, options, settings, None, "keep")
         with Call() as call:
-            call(lib.ambulo_solver_create(self.problem._pointer, run.options, NULL, call.messages, out))
-        self._handle = Handle(out[0], lib.ambulo_solver_free, (self.problem._held, run))
+            call(lib.ambulo_solver_create(held.pointer, run.options, NULL, call.messages, out))
+        self._handle = Handle(out[0], lib.ambulo_solver_free, held, run)
+
+    @property
+    def problem(self) -> Problem:
+        """As it is by now, for motions: with the ends, footholds and references that were set."""
+        held = self._held
+        own = ffi.cast("ambulo_problem *", lib.ambulo_solver_problem(held.pointer))
+        return Problem(Handle(own, lambda _: None, held))
 
     def start(self, start):
         """Begin there: unknowns, a Result or the path of a solution.yaml, with its multipliers."""
-        run = Run(self.problem, None, {}, None, "keep")
-        x = start_of(self.problem, start, run)
+        problem = self.problem
+        run = Run(problem, None, {}, None, "keep")
+        x = start_of(problem, start, run)
         with Call() as call:
             call(lib.ambulo_solver_start(self._held.pointer, x, run.options.multipliers))
 
@@ -55,6 +65,15 @@ class Solver(Owner):
             index = self.problem.model.coordinate_names.index(coordinate)
         with Call() as call:
             call(lib.ambulo_solver_set_end(self._held.pointer, index, order, final, value))
+
+    def set_foothold(self, contact: int, place, *, heading: float = 0.0):
+        """Another place (forward, left) of contact ``problem.contacts[contact]``, and of all that
+        belong to its stance."""
+        place = numpy.ascontiguousarray(place, dtype=float)
+        if place.shape != (2,):
+            raise ValueError(f"a foothold of shape {place.shape}; expected (2,): forward, left")
+        with Call() as call:
+            call(lib.ambulo_solver_set_foothold(self._held.pointer, contact, doubles(place), heading))
 
     def set_reference(self, term: int, reference):
         """Another motion [nodes][d] for a term that follows one."""
@@ -74,9 +93,9 @@ class Solver(Owner):
         limit = float("nan") if seconds is None else seconds
         with Call() as call:
             call(lib.ambulo_solver_iterate(held.pointer, iterations, limit, out))
-        count = self.problem.variable_count
-        x = numpy.frombuffer(ffi.buffer(out[0].x, 8 * count), dtype=float).copy()
-        return Iterate(x.reshape(self.problem.control_point_count, -1),
+        problem = self.problem
+        x = numpy.frombuffer(ffi.buffer(out[0].x, 8 * problem.variable_count), dtype=float).copy()
+        return Iterate(x.reshape(problem.control_point_count, -1),
                        from_c(records.SolverState, out[0]))
 
     def result(self) -> Result:
