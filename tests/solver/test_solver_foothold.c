@@ -14,9 +14,7 @@ static ambulo_problem *open_problem(const char *name, const char *const *overrid
   char path[96];
   ambulo_problem *problem = NULL;
   problem_path(name, path, sizeof path);
-  assert_int_equal(
-      ambulo_problem_load(path, (const char **)overrides, (size_t)count, NULL, NULL, &problem),
-      AMBULO_OK);
+  assert_int_equal(ambulo_problem_load(path, overrides, count, NULL, NULL, &problem), AMBULO_OK);
   return problem;
 }
 
