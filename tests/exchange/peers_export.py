@@ -15,8 +15,8 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import peers_import as imports  # noqa: E402
 
-MODELS = ["pendulum", "two_link", "walker_2d", "lower_body_21", "whole_body_29", "whole_body_45",
-          "yardstick_body"]
+MODELS = ["pendulum", "two_link", "walker_2d", "lower_body_21", "lower_body_23", "whole_body_29",
+          "whole_body_31", "whole_body_45", "yardstick_body"]
 # a seat, a wall, a box in two hands, a tendon between two points, springs at joints
 WORN = ["sit_to_stand", "push_wall", "lift", "walk_exotendon", "walk_ankle_exoskeleton"]
 SEED = 7

@@ -207,16 +207,17 @@ static void the_tolerance_is_as_documented(void **state) {
 
 static void shipped_bodies_are_symmetric_at_any_size(void **state) {
   (void)state;
-  static const char *const names[] = {"lower_body_18", "lower_body_21", "walker_2d",
-                                      "opensim_2d_gait10", "yardstick_body"};
+  static const char *const names[] = {"lower_body_18", "lower_body_21", "lower_body_23",
+                                      "whole_body_31", "walker_2d", "opensim_2d_gait10",
+                                      "yardstick_body"};
   const size_t size = sizeof(ambulo_subject);
   const ambulo_subject subjects[] = {ambulo_subject_default(),
                                      {size, 50, 1.52, AMBULO_FEMALE},
                                      {size, 117, 1.97, AMBULO_MALE},
                                      {size, 1, 0.31, AMBULO_MALE}};
   char message[1024];
-  for (int i = 0; i < 5; i++) {
-    for (int s = 0; s < (i < 3 ? 4 : 1); s++) {
+  for (int i = 0; i < 7; i++) {
+    for (int s = 0; s < (i < 5 ? 4 : 1); s++) {
       ambulo_model *model = shipped(names[i], &subjects[s]);
       if (check(model, message)) print_error("%s: %s\n", names[i], message);
       assert_string_equal(message, "");

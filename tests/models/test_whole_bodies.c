@@ -1,5 +1,5 @@
-/* Whole bodies: with arms, neck and toes at rest they are lower_body_21, whose arms and head are
- * fixed; joints turn to where their names say. */
+/* Bodies with more joints: with arms, neck and toes at rest they are lower_body_21, whose arms, head
+ * and toes are fixed; joints turn to where their names say. */
 #include "mechanics/lagrangian.h"
 #include "ambulo/tools/tools.h"
 #include "support/random_model.h"
@@ -92,8 +92,9 @@ static void at_rest_they_are_the_lower_body(void **state) {
   static const struct {
     const char *name;
     double tolerance;
-  } bodies[] = {{"whole_body_29", 2e-5}, {"whole_body_37", 2e-5}, {"whole_body_45", 1e-2}};
-  for (int b = 0; b < 3; b++) {
+  } bodies[] = {{"lower_body_23", 2e-5}, {"whole_body_29", 2e-5}, {"whole_body_31", 2e-5},
+                {"whole_body_37", 2e-5}, {"whole_body_45", 1e-2}};
+  for (int b = 0; b < 5; b++) {
     for (int s = 0; s < 2; s++) {
       body whole, lower;
       open_body(&whole, bodies[b].name, s ? "female" : "male");
@@ -158,8 +159,9 @@ static void joints_turn_as_they_are_called(void **state) {
 /* stature in the upright pose: soles at -0, the vertex one stature above */
 static void they_are_as_tall_as_their_subject(void **state) {
   (void)state;
-  static const char *const names[] = {"whole_body_29", "whole_body_37", "whole_body_45"};
-  for (int k = 0; k < 3; k++) {
+  static const char *const names[] = {"lower_body_23", "whole_body_29", "whole_body_31", "whole_body_37",
+                                      "whole_body_45"};
+  for (int k = 0; k < 5; k++) {
     body b;
     open_body(&b, names[k], "male");
     evaluate(&b);
@@ -174,9 +176,35 @@ static void they_are_as_tall_as_their_subject(void **state) {
   }
 }
 
+/* the arc of the forefoot, 4.4 cm for a body of 1.75 m, is the sole of the foot and of the toes: the
+ * toes turn about its centre, 11.9 cm ahead of the ankle, and their tip stands on the ground */
+static void toes_turn_about_the_arc_of_the_forefoot(void **state) {
+  (void)state;
+  static const char *const names[] = {"lower_body_23", "whole_body_31"};
+  for (int k = 0; k < 2; k++) {
+    body b;
+    open_body(&b, names[k], "male");
+    for (int bent = 0; bent < 2; bent++) {
+      b.q[coordinate(&b, "mtp_angle_r")] = 0.6 * bent;
+      evaluate(&b);
+      for (int i = 0; i < 3; i++)
+        assert_close(point(&b, "mtp_r")[i], point(&b, "ball_arc_r")[i], 1e-6);
+      assert_close(point(&b, "ball_arc_r")[1], 0.04375 / 1.75 * 1.7, 1e-5);
+      assert_close(point(&b, "ball_r")[0] - point(&b, "ankle_r")[0], 0.119 / 1.75 * 1.7, 1e-5);
+    }
+    b.q[coordinate(&b, "mtp_angle_r")] = 0.0;
+    evaluate(&b);
+    assert_close(point(&b, "toe_r")[1], 0.0, 1e-5);
+    expect_moves(&b, "mtp_angle_r", "toe_r", 1, 1);
+    expect_moves(&b, "mtp_angle_l", "toe_l", 1, 1);
+    close_body(&b);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(at_rest_they_are_the_lower_body),
                                      cmocka_unit_test(joints_turn_as_they_are_called),
-                                     cmocka_unit_test(they_are_as_tall_as_their_subject)};
+                                     cmocka_unit_test(they_are_as_tall_as_their_subject),
+                                     cmocka_unit_test(toes_turn_about_the_arc_of_the_forefoot)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
