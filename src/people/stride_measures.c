@@ -11,8 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double shortening = 0.25, lengthening = 1.2; /* Margaria (1968) */
-
 /* trapezoidal rule on the samples */
 static void add_work(const ambulo__stride *s, ambulo__economy *e) {
   size_t d = (size_t)s->coordinates;
@@ -105,10 +103,6 @@ void ambulo__economy_free(ambulo__economy *economy) {
   ambulo__free(&economy->allocator, economy->positive);
   ambulo__free(&economy->allocator, economy->negative);
   economy->positive = economy->negative = NULL;
-}
-
-double ambulo__economy_metabolic(const ambulo__economy *economy) {
-  return economy->positive_sum / shortening - economy->negative_sum / lengthening;
 }
 
 /* impulses of the ground's force, by the quadrature of the motion.

@@ -5,9 +5,8 @@
  *
  *     W+_i = integral max(0, P_i) dt,   W-_i = integral min(0, P_i) dt          J
  *
- * and what muscles take for it, at efficiencies of 0.25 and -1.2 (Margaria, Int Z Angew Physiol
- * 25:339-351, 1968), is W+ / 0.25 - W- / 1.2. Without ground reaction torques of a leg that stands
- * are not those of a person, and there is none.
+ * Without ground reaction torques of a leg that stands are not those of a person, and there is none.
+ * What a walk costs a person is in people/walking_cost.h.
  */
 #ifndef AMBULO_PEOPLE_STRIDE_MEASURES_H
 #define AMBULO_PEOPLE_STRIDE_MEASURES_H
@@ -29,8 +28,6 @@ typedef struct ambulo__economy {
 ambulo_status ambulo__economy_of(const ambulo__stride *stride, const ambulo_allocator *allocator,
                                  ambulo__economy *economy);
 void ambulo__economy_free(ambulo__economy *economy); /* accepts a zero-filled one */
-/* J for what the muscles take. */
-double ambulo__economy_metabolic(const ambulo__economy *economy);
 
 /* integral of the forces on feet and patches over the motion as it is shown. */
 

@@ -8,6 +8,7 @@
 #include "contact/contacts.h"
 #include "people/stride.h"
 #include "people/stride_measures.h"
+#include "people/walking_cost.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -110,20 +111,32 @@ enum {
 
 static const double shortest_way = 0.01; /* m: nothing is said by the metre of less */
 
-static void work(ambulo__json *json, const ambulo__stride *s, const ambulo__economy *e) {
+/* the estimate, what it is made of, and people's beside it where they are known */
+static void walking_cost(ambulo__json *json, const ambulo__walking_cost *cost) {
+  if (!cost->is_walk) return;
+  ambulo__json_number(json, "metabolic", cost->net);
+  ambulo__json_number(json, "metabolic_per_kg_metre", cost->per_kg_metre);
+  if (isfinite(cost->people)) ambulo__json_number(json, "people_per_kg_metre", cost->people);
+  ambulo__json_open(json, "walking", '{');
+  ambulo__json_number(json, "limb_work", cost->limbs);
+  ambulo__json_number(json, "unsteadiness", cost->unsteadiness);
+  ambulo__json_number(json, "swing", cost->swing);
+  ambulo__json_close(json, '}');
+}
+
+static void work(ambulo__json *json, const ambulo__stride *s, const ambulo__economy *e,
+                 const ambulo__walking_cost *cost) {
   const ambulo_model *m = s->model;
-  double metabolic = ambulo__economy_metabolic(e);
   double way =
       e->distance * (m->mass - ambulo__model_load_mass(m)); /* by the person, whatever is carried */
   ambulo__json_open(json, "work", '{');
   ambulo__json_number(json, "positive", e->positive_sum);
   ambulo__json_number(json, "negative", e->negative_sum);
-  ambulo__json_number(json, "metabolic", metabolic);
   if (fmin(e->distance, e->feet) >= shortest_way) {
     ambulo__json_number(json, "positive_per_kg_metre", e->positive_sum / way);
     ambulo__json_number(json, "negative_per_kg_metre", e->negative_sum / way);
-    ambulo__json_number(json, "metabolic_per_kg_metre", metabolic / way);
   }
+  walking_cost(json, cost);
   ambulo__json_open(json, "coordinates", '{');
   for (int i = 0; i < s->coordinates; i++) {
     const ambulo_coordinate *c = &s->model->coordinates[i];
@@ -141,12 +154,14 @@ ambulo_status ambulo__economy_json(ambulo__json *json, const ambulo_problem *pro
                                    const ambulo_result *result) {
   ambulo__stride stride = {.samples = 0};
   ambulo__economy economy = {.positive = NULL};
+  ambulo__walking_cost cost = {.is_walk = 0};
   const ambulo_allocator *a = &json->text->allocator;
   ambulo_status status =
       ambulo__stride_create(problem, ambulo_result_x(result), ECONOMY_JSON_SAMPLES, a, &stride);
+  if (!status) status = ambulo__walking_cost_of(&stride, a, &cost);
   if (!status) status = ambulo__economy_of(&stride, a, &economy);
   if (!status) {
-    if (problem->channels.slots) work(json, &stride, &economy);
+    if (problem->channels.slots) work(json, &stride, &economy, &cost);
     ambulo__json_open(json, "center_of_mass", '{');
     ambulo__json_number(json, "distance", economy.distance);
     ambulo__json_number(json, "rise", economy.rise);

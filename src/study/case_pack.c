@@ -22,6 +22,7 @@ static const char *const kept[][DEPTH] = {
     {"work", "positive"},
     {"work", "negative"},
     {"work", "metabolic_per_kg_metre"},
+    {"work", "people_per_kg_metre"},
     {"center_of_mass"},
     {"audit", "fault"},
     {"audit", "violation"},

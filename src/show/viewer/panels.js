@@ -74,8 +74,11 @@ function keyNumbers(summary) {
   const peaks = Object.entries(ground ?? {}).filter(([, f]) => f.peak > 0);
   if (peaks.length) add("largest force", peaks.slice(0, 3)
     .map(([name, f]) => `${spoken(name)} ${short(f.peak)}`).join(", ") + " body weights");
-  if (work?.metabolic_per_kg_metre) add("metabolic cost", `${short(work.metabolic_per_kg_metre)} J/(kg m)`);
-  else if (work) add("work", `${short(work.positive)} J, ${short(work.negative)} J`);
+  if (work?.metabolic_per_kg_metre) {
+    const people = work.people_per_kg_metre;
+    add("metabolic cost, estimated", `${short(work.metabolic_per_kg_metre)} J/(kg m)`
+      + (people ? `; people ${short(people)}` : ""));
+  } else if (work) add("work", `${short(work.positive)} J, ${short(work.negative)} J`);
   if (mass) add("centre of mass rises", amount(mass.rise, "m"));
   return rows.length ? el("dl", { class: "numbers" }, rows) : null;
 }
