@@ -55,7 +55,8 @@ typedef enum ambulo_term_kind {
   AMBULO_TORQUE_POWER,     /* sum_i (u_i^2 + s^2)^(p/2) - s^p,  u_i the active torque as a fraction
                               of strength: scale_i (tau_i - offset_i - passive_i(q)) / strength_i(q) */
   AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
-  AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg;
+  AMBULO_MECHANICAL_POWER, /* sum_i (1 + n)/2 (sqrt(u_i^2 + s^2) - s) + (1 - n)/2 u_i,
+                              u_i = scale_i tau_i qd_i / m, W/kg, n = negative;
                               with `tendon` tau_i (qd_i + dtau_i/dt / tendon_i) for tau_i qd_i */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
   AMBULO_UPRIGHT, /* squared horizontal parts of the line point[0] to point[1] over its length */
@@ -95,6 +96,9 @@ typedef struct ambulo_term {
                            Power is then that of the muscles, from means and differences of
                            neighbouring nodes. NULL: power of the joint, at the nodes
                            (AMBULO_MECHANICAL_POWER) */
+  double
+      negative; /* n in [0, 1]: price of negative power beside positive (AMBULO_MECHANICAL_POWER);
+                   1 */
 } ambulo_term;
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */

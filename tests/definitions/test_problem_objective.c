@@ -123,6 +123,18 @@ static void tendons_are_read(void **state) {
   p = problem_of(BEHIND(""));
   assert_null(p->definition.terms[0].tendon);
   ambulo_problem_free(p);
+  p = problem_of(BEHIND(", negative: 0.3"));
+  assert_close(p->definition.terms[0].negative, 0.3, 0.0);
+  ambulo_problem_free(p);
+  p = problem_of(BEHIND(""));
+  assert_close(p->definition.terms[0].negative, 1.0, 0.0);
+  ambulo_problem_free(p);
+  expect_refusal(BEHIND(", negative: -0.1"), AMBULO_E_SCHEMA, "p.yaml:6:40: error");
+  expect_refusal(BEHIND(", negative: 1.1"), AMBULO_E_SCHEMA, "p.yaml:6:40: error");
+  expect_refusal("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
+                 "time: {intervals: 6, duration: 1}\n"
+                 "objective: [{term: torque_rate, negative: 0.3}]\n",
+                 AMBULO_E_SCHEMA, "unknown key 'negative'");
   expect_refusal(BEHIND(", tendon: {ankle_angle_r: 0}"), AMBULO_E_SCHEMA, "p.yaml:6:54: error");
   expect_refusal(BEHIND(", tendon: 400"), AMBULO_E_SCHEMA, "p.yaml:6:38: error");
   expect_refusal(BEHIND(", tendon: {ankle: 400}"), AMBULO_E_SCHEMA, "unknown key 'ankle'");

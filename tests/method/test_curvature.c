@@ -199,6 +199,7 @@ static void squares_of_a_joint_are_joined(void **state) {
   }
   terms[0].passive = passive;
   terms[0].strength = strength;
+  terms[1].negative = 0.4;
   d.terms = terms;
   d.term_count = KINDS;
   fixture_open(&f, &d);

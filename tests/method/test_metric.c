@@ -69,6 +69,7 @@ static void curvature_is_that_of_the_residuals(void **state) {
       if (kinds[k] == AMBULO_TORQUE_SQUARED || kinds[k] == AMBULO_POSTURE) term->offset = offset;
       if (kinds[k] == AMBULO_TRACKING) term->reference = reference;
       if (k == KINDS - 1) term->tendon = tendon;
+      if (kinds[k] == AMBULO_MECHANICAL_POWER) term->negative = 0.4;
       term->point[0] = 0;
       term->point[1] = 1;
       term->function = kinds[k] == AMBULO_USER_SQUARE ? mixed : bowl;

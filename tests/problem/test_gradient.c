@@ -92,6 +92,7 @@ static void every_family_and_term_agrees_with_central_differences(void **state) 
   terms[AMBULO_USER_TERM].user = &factor;
   terms[KINDS] = terms[AMBULO_MECHANICAL_POWER]; /* with and without */
   terms[KINDS].tendon = tendon;
+  terms[KINDS].negative = terms[AMBULO_MECHANICAL_POWER].negative = 0.3;
   ambulo_user_row row = {"hand", "m", AMBULO_NOT_NEGATIVE, 0.25, 0.75, hand_height, &factor};
   ambulo_problem_definition definition = arm_definition(f.model);
   definition.terms = terms + 1;

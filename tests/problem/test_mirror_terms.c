@@ -57,6 +57,23 @@ static void sides_may_stand_in_different_terms(void **state) {
   }
 }
 
+/* power of either side at a price of its own for braking */
+static void sides_brake_at_one_price(void **state) {
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    fixture f;
+    open_fixture(&f, 2, AMBULO_MECHANICAL_POWER);
+    for (int i = 0; i < D; i++) {
+      f.scale[0][i] = i >= HIP_R && i < HIP_R + 6 ? 0.01 : 0.0;
+      f.scale[1][i] = i >= HIP_R + 6 ? 0.01 : 0.0;
+    }
+    f.terms[0].negative = f.terms[1].negative = 0.3;
+    if (k) f.terms[1].negative = 0.4;
+    expect(&f,
+           k ? "of 'hip_flexion_r' is 0.01, that of its mirror partner 'hip_flexion_l' 0;" : NULL);
+  }
+}
+
 /* what a term holds to or takes off turns with the sign */
 static void offsets_turn_with_the_sign(void **state) {
   (void)state;
@@ -300,6 +317,7 @@ int main(void) {
                                      cmocka_unit_test(an_unequal_scale_is_refused),
                                      cmocka_unit_test(one_side_only_is_refused),
                                      cmocka_unit_test(sides_may_stand_in_different_terms),
+                                     cmocka_unit_test(sides_brake_at_one_price),
                                      cmocka_unit_test(offsets_turn_with_the_sign),
                                      cmocka_unit_test(curves_are_compared_as_functions),
                                      cmocka_unit_test(nothing_hides_a_difference),

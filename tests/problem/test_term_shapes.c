@@ -63,6 +63,29 @@ static void the_parabola_lies_above(void **state) {
   }
 }
 
+/* positive at 1, negative at n, smooth between: by hand, by differences, below its parabola */
+static void negative_may_have_a_price_of_its_own(void **state) {
+  (void)state;
+  ambulo__residual r = ambulo__two_prices(-3.0, 4.0, 0.25),
+                   one = ambulo__two_prices(-3.0, 4.0, 1.0);
+  assert_close(r.value, 0.625 * 1.0 - 0.375 * 3.0, 1e-15);
+  assert_close(r.slope, 0.625 * -0.6 + 0.375, 1e-15);
+  assert_close(r.curvature, 0.625 * 0.2, 1e-15);
+  assert_close(one.value, ambulo__absolute(-3.0, 4.0).value, 0.0);
+  assert_close(one.slope, -0.6, 1e-15);
+  assert_close(ambulo__two_prices(7.0, 1e-6, 0.3).value, 7.0, 1e-5);
+  assert_close(ambulo__two_prices(-7.0, 1e-6, 0.3).value, 2.1, 1e-5);
+  assert_close(ambulo__two_prices(0.0, 0.5, 0.3).value, 0.0, 0.0);
+  r = ambulo__two_prices(1.1, 0.2, 0.3);
+  for (double v = -3.0; v < 3.0; v += 0.1) {
+    double h = 1e-6, step = v - 1.1, plus = ambulo__two_prices(v + h, 0.2, 0.3).value;
+    double numeric = (plus - ambulo__two_prices(v - h, 0.2, 0.3).value) / (2.0 * h);
+    ambulo__residual at = ambulo__two_prices(v, 0.2, 0.3);
+    assert_close(at.slope, numeric, 1e-8);
+    assert_true(at.value <= r.value + r.slope * step + 0.5 * r.curvature * step * step + 1e-12);
+  }
+}
+
 static void squares(void **state) {
   (void)state;
   ambulo__residual r = ambulo__squared(-3.0);
@@ -89,7 +112,8 @@ static void power_laws_by_hand_and_by_differences(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(squares),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(negative_may_have_a_price_of_its_own),
+                                     cmocka_unit_test(squares),
                                      cmocka_unit_test(power_laws_by_hand_and_by_differences),
                                      cmocka_unit_test(values_by_hand),
                                      cmocka_unit_test(it_tends_to_the_absolute_value),

@@ -247,6 +247,8 @@ static const ambulo__member term[] = {
     {BORROWED(user)},
     {ARRAY("tendon", tendon, AMBULO__EACH_COORDINATE, 1, 0.0, LARGEST), EXACT | APART,
      AMBULO__RATIO, "stiffness of the tendon", AMBULO__TERM_TENDON},
+    {NUMBER("negative", negative, 0.0, 1.0, 1.0), EXACT, AMBULO__RATIO,
+     "price of negative power of", AMBULO__TERM_NEGATIVE},
 };
 TABLE("objective", term);
 #undef OF

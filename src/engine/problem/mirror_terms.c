@@ -127,6 +127,9 @@ static int count_like(const ambulo_problem_definition *d, const share *a, share 
     if (ambulo__term_has(a->term, AMBULO__TERM_SMOOTHING) &&
         !same(b.term->smoothing, a->term->smoothing))
       continue;
+    if (ambulo__term_has(a->term, AMBULO__TERM_NEGATIVE) &&
+        !same(b.term->negative, a->term->negative))
+      continue;
     if (ambulo__term_is_rate(b.term) != ambulo__term_is_rate(a->term)) continue;
     if (ambulo__term_has(a->term, AMBULO__TERM_POWER) && !same(b.term->power, a->term->power))
       continue;

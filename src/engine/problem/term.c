@@ -49,6 +49,8 @@ double ambulo__term_least(const ambulo_term *term) {
 /* (13.c) u of the simple terms */
 ambulo__residual ambulo__term_residual_from(const ambulo_term *term, double least, double u) {
   ambulo__term_shape shape = ambulo__term_info_of(term->kind)->shape;
+  if (ambulo__term_has(term, AMBULO__TERM_NEGATIVE))
+    return ambulo__two_prices(u, term->smoothing, term->negative);
   if (shape == AMBULO__TERM_ABSOLUTE) return ambulo__absolute(u, term->smoothing);
   if (shape == AMBULO__TERM_POWER_LAW)
     return ambulo__power_law(u, term->power, term->smoothing, least);

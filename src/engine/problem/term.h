@@ -29,6 +29,7 @@ typedef struct ambulo__residual {
 /* phi of each shape at u. */
 ambulo__residual ambulo__squared(double u);
 ambulo__residual ambulo__absolute(double u, double smoothing);
+ambulo__residual ambulo__two_prices(double u, double smoothing, double negative);
 /* least: s^p, which no u changes; where only derivatives are looked at, any will do. */
 ambulo__residual ambulo__power_law(double u, double power, double smoothing, double least);
 double ambulo__power_least(double power, double smoothing);
@@ -68,7 +69,8 @@ enum {
   AMBULO__TERM_DEVICES = 1 << 8,   /* device_scale */
   AMBULO__TERM_REFERENCE = 1 << 9, /* reference */
   AMBULO__TERM_TENDON = 1 << 10,   /* tendon */
-  AMBULO__TERM_CALLBACK = 1 << 11  /* function, user: not in files */
+  AMBULO__TERM_CALLBACK = 1 << 11, /* function, user: not in files */
+  AMBULO__TERM_NEGATIVE = 1 << 12  /* negative */
 };
 
 /* Which two sides have to agree, with mirrored ends (mirror_terms.c). */

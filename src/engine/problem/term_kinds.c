@@ -54,8 +54,7 @@ static void strength_form(const ambulo_term *term, const ambulo__term_context *c
 
 /* Power of each joint, or of its muscles, per body mass, W/kg.
  *
- *     u_i = scale_i tau_i qd_i / m,   phi the smoothed absolute value: positive and
- *     negative work cost the same.
+ *     u_i = scale_i tau_i qd_i / m,   phi of two prices: negative work at `negative` of positive
  *     du/dtau = scale qd / m,  du/dqd = scale tau / m
  *
  * Behind a tendon of stiffness k, N m/rad, a torque tau stretches it by tau / k, and muscles have
@@ -371,7 +370,8 @@ static const ambulo__term_info kinds[] = {
                             AMBULO__TERM_SCALE, .is_rate = 1, .forms = each_coordinate,
                             .form = torque_rate_form, .mirror = AMBULO__MIRROR_COORDINATES},
     [AMBULO_MECHANICAL_POWER] = {"mechanical_power", AMBULO__TERM_OF_POWER, AMBULO__TERM_ABSOLUTE,
-                                 AMBULO__TERM_SCALE | AMBULO__TERM_SMOOTHING | AMBULO__TERM_TENDON,
+                                 AMBULO__TERM_SCALE | AMBULO__TERM_SMOOTHING | AMBULO__TERM_TENDON |
+                                     AMBULO__TERM_NEGATIVE,
                                  .smoothing = 0.05, .forms = each_coordinate,
                                  .form = mechanical_power_form,
                                  .mirror = AMBULO__MIRROR_COORDINATES},

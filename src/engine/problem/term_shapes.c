@@ -15,9 +15,13 @@
  *   power law   (u^2 + s^2)^(p/2) - s^p, p >= 2       phi' = p u (u^2 + s^2)^(p/2 - 1)
  *                        phi'' = p (u^2 + s^2)^(p/2 - 1) (1 + (p - 2) u^2 / (u^2 + s^2))
  *
+ *   two prices  (1 + n)/2 (sqrt(u^2 + s^2) - s) + (1 - n)/2 u, n <= 1: what is positive at 1,
+ *               what is negative at n: phi' = (1 + n)/2 u / sqrt(u^2 + s^2) + (1 - n)/2
+ *
  * The smoothed absolute value tends to |u| as s -> 0 (the seed's Fig. 5b). The curvature
  * handed out for it is phi'(u) / u = 1 / sqrt(u^2 + s^2), that of the parabola which touches
- * phi at u and lies above it everywhere (concavity of sqrt in u^2): reweighted least squares.
+ * phi at u and lies above it everywhere (concavity of sqrt in u^2): reweighted least squares. Of
+ * two prices it is (1 + n)/2 of that: what is linear in u has none.
  * Written as u^2 / (sqrt(u^2 + s^2) + s), phi loses no digits for small u.
  */
 
@@ -34,6 +38,14 @@ ambulo__residual ambulo__absolute(double u, double smoothing) {
   double root = square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(u, smoothing);
   ambulo__residual r = {u * (u / (root + smoothing)), u / root, 1.0 / root};
   return r;
+}
+
+/* (13.o) (1 + n)/2 (sqrt(u^2 + s^2) - s) + (1 - n)/2 u */
+ambulo__residual ambulo__two_prices(double u, double smoothing, double negative) {
+  ambulo__residual r = ambulo__absolute(u, smoothing);
+  double even = 0.5 * (1.0 + negative), odd = 0.5 * (1.0 - negative);
+  if (negative == 1.0) return r;
+  return (ambulo__residual){even * r.value + odd * u, even * r.slope + odd, even * r.curvature};
 }
 
 double ambulo__power_least(double power, double smoothing) {

@@ -198,6 +198,9 @@ static void read_members(ambulo__problem_reader *reader, const ambulo__yaml_node
   if (has & AMBULO__TERM_LINE) read_line(reader, ambulo__yaml_require(node, "points"), term);
   if (has & AMBULO__TERM_TENDON)
     term->tendon = read_given(reader, ambulo__yaml_get(node, "tendon"), read_stiffness);
+  if (has & AMBULO__TERM_NEGATIVE)
+    term->negative =
+        ambulo__yaml_number_in(ambulo__yaml_get(node, "negative"), 0.0, 1.0, term->negative);
   if (has & AMBULO__TERM_DEVICES)
     term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
   if (has & AMBULO__TERM_HEIGHT)
