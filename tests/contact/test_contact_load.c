@@ -181,10 +181,22 @@ static void a_foot_may_come_down_on_its_toes(void **state) {
   close_it(&f);
 }
 
+/* boxes that a problem gives, m along the foot */
+static void give_boxes(ambulo_ground_reaction *r) {
+  static const double heel[2] = {-0.02, 0.03}, flat[2] = {-0.005, 0.02}, toe[2] = {-0.02, 0.055};
+  for (int end = 0; end < 2; end++) {
+    r->heel_pressure[end] = heel[end];
+    r->flat_pressure[end] = flat[end];
+    r->toe_pressure[end] = toe[end];
+  }
+  r->pressure_width = 0.035;
+}
+
 static void patches_are_about_the_centre(void **state) {
   (void)state;
   test_contact_load_fixture f;
   test_contact_load_open_with(&f, walker_create(0), 2);
+  give_boxes(&f.definition.ground_reaction);
   ambulo__contact_load heel = load_at(&f, WALKER_LEFT, 0.05);
   ambulo__contact_load flat = load_at(&f, WALKER_LEFT, 0.25);
   ambulo__contact_load toe = load_at(&f, WALKER_LEFT, 0.45);
@@ -199,6 +211,51 @@ static void patches_are_about_the_centre(void **state) {
   assert_close(flat.rolled + toe.rolled, 0.0, 0.0);
   for (int end = 0; end < 2; end++) assert_int_equal(heel.cut[end] + flat.cut[end], 0);
   close_it(&f);
+}
+
+/* from the heel's foothold: without boxes, flat from the heel's corners to 2 cm ahead of the ball,
+ * no further than the tip; on an edge what is within .8 mm of it, and the toes */
+static void contacts_press_where_the_sole_is(void **state) {
+  (void)state;
+  test_contact_load_fixture f;
+  test_contact_load_open_with(&f, walker_create(0), 2);
+  for (int longer = 0; longer < 2; longer++) {
+    for (int i = 0; i < 2; i++) {
+      f.outlines[i].back = -0.01;
+      f.outlines[i].tip = longer ? 0.27 : 0.225;
+      f.outlines[i].half_width = 0.03;
+    }
+    ambulo__contact_load heel = load_at(&f, WALKER_LEFT, 0.05);
+    ambulo__contact_load flat = load_at(&f, WALKER_LEFT, 0.25);
+    ambulo__contact_load toe = load_at(&f, WALKER_LEFT, 0.45);
+    assert_close(heel.box[0], -0.01, 1e-12);
+    assert_close(heel.box[1], 0.0006, 1e-12);
+    assert_close(flat.box[0], -0.01 - 0.12, 1e-12);
+    assert_close(flat.box[1], (longer ? 0.24 : 0.225) - 0.12, 1e-12);
+    assert_close(toe.box[0], -0.0006 - 0.02, 1e-12);
+    assert_close(toe.box[1], (longer ? 0.05 : 0.005) - 0.02, 1e-12);
+    assert_close(flat.side, 0.03, 0.0);
+  }
+  close_it(&f);
+}
+
+/* of the model's points at q = 0 */
+static void outlines_end_at_corners_and_tip(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create(0);
+  for (int i = 0; i < 2; i++) {
+    ambulo__foot_outline o = ambulo__foot_outline_of(model, i);
+    double back = 0.0, narrow = INFINITY;
+    for (int c = 0; c < o.count; c++) {
+      back = fmin(back, o.place[c][0]);
+      narrow = fmin(narrow, fabs(o.place[c][1]));
+    }
+    assert_close(o.back, back, 0.0);
+    assert_close(o.half_width, narrow, 0.0);
+    assert_true(narrow > 0.01);
+    assert_close(o.tip, fmax(o.length, ambulo__foot_reach(model, i)), 0.0);
+  }
+  ambulo_model_free(model);
 }
 
 /* rate 15 / s that sets in over 6.5 ms, from either end of the stance of 0.6 s */
@@ -341,6 +398,8 @@ int main(void) {
       cmocka_unit_test(no_glide_is_shorter_than_a_sixteenth),
       cmocka_unit_test(a_foot_may_come_down_on_its_toes),
       cmocka_unit_test(patches_are_about_the_centre),
+      cmocka_unit_test(contacts_press_where_the_sole_is),
+      cmocka_unit_test(outlines_end_at_corners_and_tip),
       cmocka_unit_test(the_load_comes_and_goes_at_a_rate),
       cmocka_unit_test(nothing_jumps),
       cmocka_unit_test(a_foot_with_a_joint_rolls_from_one_part_to_the_other),

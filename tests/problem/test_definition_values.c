@@ -179,7 +179,7 @@ static void same_numbers(const ambulo_problem_definition *filled,
   assert_true(a->clearance.inward == b->clearance.inward);
   assert_true(isnan(a->clearance.height) && isnan(b->clearance.height));
   assert_int_equal(a->ground_reaction.kind, b->ground_reaction.kind);
-  assert_true(a->ground_reaction.pressure_width == b->ground_reaction.pressure_width);
+  assert_true(a->ground_reaction.arc_pressure == b->ground_reaction.arc_pressure);
   assert_true(a->ground_reaction.loading_rate == b->ground_reaction.loading_rate);
   assert_int_equal(a->joint_limits, b->joint_limits);
   assert_int_equal(a->collision.mode, b->collision.mode);

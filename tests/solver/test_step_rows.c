@@ -64,16 +64,17 @@ static void kinks_are_left_out(void **state) {
                                           "contacts[3].place[2]", NULL});
   ambulo_problem *problem =
       NULL; /* nor can they be free: that is known before there is a solution */
-  const char *const overrides[] = {"ends=null",
+  const char *const overrides[] = {"model=lower_body_18_rigid.yaml",
+                                   "ends=null",
                                    "time.duration=0.8",
                                    "time.intervals=72",
                                    "trajectory.intervals=18",
                                    EQUAL,
                                    "free={\"contacts[1].place[2]\": [0.1, 0.2]}"};
-  assert_int_equal(ambulo_problem_load("models/stairs_up.yaml", overrides, 5, NULL, NULL, &problem),
+  assert_int_equal(ambulo_problem_load("models/stairs_up.yaml", overrides, 6, NULL, NULL, &problem),
                    AMBULO_OK);
   ambulo_problem_free(problem);
-  assert_int_equal(ambulo_problem_load("models/stairs_up.yaml", overrides, 6, NULL, NULL, &problem),
+  assert_int_equal(ambulo_problem_load("models/stairs_up.yaml", overrides, 7, NULL, NULL, &problem),
                    AMBULO_E_SCHEMA);
 }
 

@@ -176,63 +176,60 @@ static void contacts_that_share_have_words_of_their_own(void **state) {
   try_misses(shared, sizeof shared / sizeof *shared);
 }
 
-/* what is suggested where a side of a box is missed by 1 cm of half the body weight; `other` is the
- * opposite side, `way` the length of the box between them */
-static ambulo__explanation *suggest_pressed(const ambulo_problem *p, const miss *m,
-                                            const char *other, double way, int node) {
-  miss opposite = *m;
-  opposite.detail = other;
-  int row = find_row(p, m, node), across = find_row(p, &opposite, node);
-  assert_true(row >= 0 && across >= 0);
+/* what is suggested where a side of a box is missed by 1 cm of half the body weight */
+static ambulo__explanation *suggest_pressed(const ambulo_problem *p, const miss *m, int node) {
+  miss pushes = *m;
+  pushes.family = "normal_force";
+  pushes.detail = "pulls";
+  int row = find_row(p, m, node), force = find_row(p, &pushes, node);
+  assert_true(row >= 0 && force >= 0);
   double *values = calloc((size_t)p->rows, sizeof *values);
   ambulo__explanation *out = calloc(1, sizeof *out);
   values[row] = -0.01;
-  /* but for what is allowed on either side */
-  values[across] = 0.5 * way + 0.01 + 2.0 * p->table.rows[row].constant;
+  values[force] = 0.5;
   ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
   ambulo__suggest(p, &remedy, out);
   free(values);
   return out;
 }
 
-/* heel to ball is 0.19 m of a stature of 1.75 m; the box of a flat foot is that and 0.025 m long */
-static double flat_length(const ambulo_problem *p) {
-  ambulo__foot_outline outline = ambulo__foot_outline_of(p->model, 1);
-  return outline.length + 0.025;
-}
-
-#define TOE_BOX "toe: [-0.02, 0.055], "
-
-/* 1 cm of half the body weight are 2 cm of the centre of pressure: of either end, and of the width
- */
+/* 1 cm of half the body weight are 2 cm of the centre of pressure: of either end, and of the width.
+ * The foot that is flat has its corners at the heel and 0.04 m to either side */
 static void pressure_is_missed_by_what_its_force_makes_of_it(void **state) {
   (void)state;
-  static const char heel[] = "ground_reaction.pressure={heel: [-0.02, 0.03], roll: 0.04, flat: ";
-  static const char *const settings[] = {SHARED};
+#define GIVEN                                                                                      \
+  "ground_reaction={kind: shared, pressure: {heel: [-0.02, 0.03], roll: 0.04, flat: [-0.005, "     \
+  "0.02], toe: [-0.02, 0.055], width: 0.035}}"
+#define HEEL "heel: [-0.02, 0.03], roll: 0.04, "
+#define TOE ", toe: [-0.02, 0.055], "
   static const struct {
-    const char *detail, *other;
-    const char *phrase, *setting;
-  } cases[] = {{"front", "back", "of left go 0.02 m further front",
-                "[-0.005, 0.0404], " TOE_BOX "width: 0.035}"},
-               {"back", "front", "of left go 0.02 m further back",
-                "[-0.0254, 0.02], " TOE_BOX "width: 0.035}"},
-               {"left", "right", "of left go 0.02 m further left",
-                "[-0.005, 0.02], " TOE_BOX "width: 0.0554}"},
-               {"right", "left", "of left go 0.02 m further right",
-                "[-0.005, 0.02], " TOE_BOX "width: 0.0554}"}};
-  ambulo_problem *p = load(WALK, settings, 1);
-  for (int i = 0; i < 4; i++) {
+    const char *settings, *detail, *phrase, *boxes;
+  } cases[] = {
+      {GIVEN, "front", "of left go 0.02 m further front",
+       HEEL "flat: [-0.005, 0.0404]" TOE "width: 0.035"},
+      {GIVEN, "back", "of left go 0.02 m further back",
+       HEEL "flat: [-0.0254, 0.02]" TOE "width: 0.035"},
+      {GIVEN, "left", "of left go 0.02 m further left",
+       HEEL "flat: [-0.005, 0.02]" TOE "width: 0.0554"},
+      {GIVEN, "right", "of left go 0.02 m further right",
+       HEEL "flat: [-0.005, 0.02]" TOE "width: 0.0554"},
+      {SHARED, "front", "of left go 0.02 m further front", "flat: [0, 0.0404]"},
+      {SHARED, "back", "of left go 0.02 m further back", "flat: [-0.0204, 0.02]"},
+      {SHARED, "left", "of left go 0.02 m further left", "width: 0.0604"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const char *settings[] = {cases[i].settings};
+    ambulo_problem *p = load(WALK, settings, 1);
     char setting[200];
-    (void)snprintf(setting, sizeof setting, "%s%s", heel, cases[i].setting);
-    const miss m = {WALK,  {SHARED},        "pressure", "left", cases[i].detail,
-                    -0.01, cases[i].phrase, {setting},  1};
-    double way = i < 2 ? flat_length(p) : 0.07;
-    ambulo__explanation *out = suggest_pressed(p, &m, cases[i].other, way, 16);
+    (void)snprintf(setting, sizeof setting, "ground_reaction.pressure={%s, arc: 0.0006}",
+                   cases[i].boxes);
+    const miss m = {WALK,  {cases[i].settings}, "pressure", "left", cases[i].detail,
+                    -0.01, cases[i].phrase,     {setting},  1};
+    ambulo__explanation *out = suggest_pressed(p, &m, 16);
     expect_advice(&m, out);
     follow(&m, p, find_row(p, &m, 16), out);
     free(out);
+    ambulo_problem_free(p);
   }
-  ambulo_problem_free(p);
 }
 
 static void what_a_row_misses_can_be_set(void **state) {
@@ -245,17 +242,17 @@ static void on_an_event_both_boxes_move(void **state) {
   (void)state;
   static const char *const settings[] = {"time.grid=events"};
   ambulo_problem *p = load(WALK, settings, 1);
-  const miss m = {WALK,
-                  {"time.grid=events"},
-                  "pressure",
-                  "left",
-                  "front",
-                  -0.01,
-                  "of left go 0.02 m further front",
-                  {"ground_reaction.pressure={heel: [-0.02, 0.0504], roll: 0.04, flat: [-0.005, "
-                   "0.0404], toe: [-0.02, 0.055], width: 0.035}"},
-                  1};
-  ambulo__explanation *out = suggest_pressed(p, &m, "back", flat_length(p), 4);
+  const miss m = {
+      WALK,
+      {"time.grid=events"},
+      "pressure",
+      "left",
+      "front",
+      -0.01,
+      "of left go 0.02 m further front",
+      {"ground_reaction.pressure={heel: [0, 0.021], roll: 0.04, flat: [0, 0.0404], arc: 0.0006}"},
+      1};
+  ambulo__explanation *out = suggest_pressed(p, &m, 4);
   expect_advice(&m, out);
   follow(&m, p, find_row(p, &m, 4), out);
   free(out);

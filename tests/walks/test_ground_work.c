@@ -18,20 +18,22 @@
 
 #include "ambulo/tools/tools.h"
 
-enum { SAMPLES = 4001, FEET = 2, FOOT_POINTS = 4, WALKS = 8 };
+enum { SAMPLES = 4001, FEET = 2, FOOT_POINTS = 4, WALKS = 10 };
 
-/* work: of the ground, by the joints' positive. A slow walk leans on its tolerances longer */
+static const double most_work = 0.01; /* of the ground, by the joints' positive */
+
 static const struct {
   const char *path, *setting;
-  double work;
-} walks[WALKS] = {{"models/walk.yaml", NULL, 0.01},
-                  {"models/walk.yaml", "gait.speed=0.8", 0.04},
-                  {"models/walk.yaml", "gait.speed=1.8", 0.012},
-                  {"models/walk_normal.yaml", NULL, 0.01},
-                  {"models/walk_loaded.yaml", NULL, 0.01},
-                  {"models/walk_uphill.yaml", NULL, 0.01},
-                  {"models/walk_asymmetric.yaml", NULL, 0.01},
-                  {"models/walk_tracking.yaml", NULL, 0.01}};
+} walks[WALKS] = {{"models/walk.yaml", NULL},
+                  {"models/walk.yaml", "gait.speed=0.6"},
+                  {"models/walk.yaml", "gait.speed=0.8"},
+                  {"models/walk.yaml", "gait.speed=1.8"},
+                  {"models/walk.yaml", "gait.speed=2.2"},
+                  {"models/walk_normal.yaml", NULL},
+                  {"models/walk_loaded.yaml", NULL},
+                  {"models/walk_uphill.yaml", NULL},
+                  {"models/walk_asymmetric.yaml", NULL},
+                  {"models/walk_tracking.yaml", NULL}};
 
 static const char *name_of(int i) {
   return walks[i].setting ? walks[i].setting : walks[i].path;
@@ -277,11 +279,11 @@ static void the_ground_does_next_to_no_work(void **state) {
     const walk *w = &all[i];
     double positive, net = joint_work(w, &positive), ground = lifted(w) - net;
     double feet = work_at_the_feet(w);
-    if (!(fabs(ground) <= walks[i].work * positive && fabs(feet - ground) <= 0.002 * positive))
+    if (!(fabs(ground) <= most_work * positive && fabs(feet - ground) <= 0.002 * positive))
       print_error("%s: the ground does %.3f J, at the feet %.3f J; joints %.2f J\n", name_of(i),
                   ground, feet, positive);
     assert_true(positive > 20.0);
-    assert_true(fabs(ground) <= walks[i].work * positive);
+    assert_true(fabs(ground) <= most_work * positive);
     assert_true(fabs(feet - ground) <= 0.002 * positive);
   }
 }

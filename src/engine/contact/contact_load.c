@@ -115,6 +115,15 @@ ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
  * Centre, ahead of the heel's foothold, with L from heel to toe centre (ball): r (L + a),
  * a = 0.02 m for 1.75 m. What a single contact carries does not depend on its centre.
  *
+ * A foot with arcs, their centres at h and t where it is flat: h + r (t - h), and where it rolls on
+ * one of radius R, where that touches at a usual pitch, with u the part of the time on it that is
+ * over: h - R theta, t + R theta,
+ *
+ *     theta = theta_d (1 - u)^2 if the foot comes down on it, + theta_l u^2 if it leaves from it
+ *
+ * Were it elsewhere, pressure under the arc would take moments that the law does not give, but for
+ * motions that are bent to it: with t + a walks cost 3 % more, and twice the iterations.
+ *
  * A foot with a joint between heel and ball has two contacts, which share its weight w: the rear
  * one has w until the foot rolls on from flat to the toes, and passes it away by that S; its centre
  * is at min(r, 1/2) L. The fore one gets w as the foot rolls from the heel to flat; its centre is
@@ -229,19 +238,45 @@ static double rolled(const ambulo_contact *contact, const ambulo__stance *stance
   return (time - stance->from) / rolling;
 }
 
+/* Of the flat foot all from the heel's corners on, but of toes, which bend, only what is next to
+ * the ball; on the heel or the toes of a rigid foot the edge over which it turns, and the toes. */
+static void box_of_sole(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
+                        ambulo_contact_mode mode, double box[2]) {
+  double edge = d->ground_reaction.arc_pressure, beyond = outline->tip - outline->length;
+  int on_toes = ambulo__mode_is_on_toes(mode);
+  box[0] = on_toes ? -edge : outline->back;
+  box[1] = on_toes ? beyond : edge;
+  if (ambulo__mode_is_flat(mode))
+    box[1] = fmin(beyond, AMBULO__BEYOND_BALL * ambulo__model_size(d->model));
+}
+
+int ambulo__pressure_box(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
+                         ambulo_contact_mode mode, double box[2]) {
+  const ambulo_ground_reaction *r = &d->ground_reaction;
+  const double *given = ambulo__mode_is_flat(mode)      ? r->flat_pressure
+                        : ambulo__mode_is_on_toes(mode) ? r->toe_pressure
+                                                        : r->heel_pressure;
+  box[0] = given[0];
+  box[1] = given[1];
+  if (isnan(given[0])) box_of_sole(d, outline, mode, box);
+  return !isnan(given[0]);
+}
+
+double ambulo__pressure_side(const ambulo_problem_definition *d,
+                             const ambulo__foot_outline *outline) {
+  double given = d->ground_reaction.pressure_width;
+  return isnan(given) ? fmax(outline->half_width, d->ground_reaction.arc_pressure) : given;
+}
+
 /* ends along forward, from the heel's foothold */
-static void box_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
-                   double part_rolled, double box[2]) {
-  if (ambulo__mode_is_flat(contact->mode)) {
-    box[0] = r->flat_pressure[0];
-    box[1] = length + r->flat_pressure[1];
-  } else if (ambulo__mode_is_on_toes(contact->mode)) {
-    box[0] = length + r->toe_pressure[0];
-    box[1] = length + r->toe_pressure[1];
-  } else {
-    box[0] = r->heel_pressure[0];
-    box[1] = r->heel_pressure[1] + r->heel_roll * part_rolled;
-  }
+static void box_of(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
+                   const ambulo_contact *contact, double part_rolled, double box[2]) {
+  int given = ambulo__pressure_box(d, outline, contact->mode, box);
+  int on_toes = ambulo__mode_is_on_toes(contact->mode),
+      on_heel = ambulo__mode_is_on_heel(contact->mode);
+  if (on_toes) box[0] += outline->length;
+  if (!on_heel) box[1] += outline->length;
+  if (on_heel && given) box[1] += d->ground_reaction.heel_roll * part_rolled;
 }
 
 /* ---------------------------------------------------------------------- load */
@@ -253,11 +288,33 @@ static int modes_of(ambulo__slot_part part) {
   return AMBULO__ANY_MODE;
 }
 
+/* rad: theta_d, of shipped runs and walks .2 to .45, and theta_l, .6 to 1.1 */
+static const double pitch_down = 0.35, pitch_left = 0.9;
+
+/* centre of a foot that rolls on an arc */
+static double under_arc(const ambulo__foot_outline *outline, const ambulo_contact *contact,
+                        const ambulo__stance *stance, double time) {
+  const ambulo__span *phase = &stance->phase;
+  int toes = ambulo__mode_is_on_toes(contact->mode), starts = stance->before < 0;
+  int cut_before = toes && starts && isinf(stance->from), ends = stance->after < 0;
+  int cut_after = toes && ends && isinf(stance->to);
+  double length = phase->to - phase->from, pitch = 0.0;
+  double over = length > 0.0 ? fmin(1.0, fmax(0.0, (time - phase->from) / length)) : 0.0;
+  over = (over + cut_before) / (1.0 + cut_before + cut_after);
+  if (starts && !cut_before) pitch += pitch_down * (1.0 - over) * (1.0 - over);
+  if (ends && (toes || isfinite(stance->to))) pitch += pitch_left * over * over;
+  return outline->arc_ahead[toes] + (toes ? outline->radius[1] : -outline->radius[0]) * pitch;
+}
+
 /* weight, centre and box of the foot become those of the part; returns the centre */
-static double narrow(ambulo__slot_part part, roll at, double length, double size,
-                     ambulo__contact_load *load) {
-  double ahead = length + AMBULO__BEYOND_BALL * size, *box = load->box;
-  if (part == AMBULO__WHOLE_FOOT) return at.along * ahead;
+static double narrow(ambulo__slot_part part, roll at, const ambulo__foot_outline *outline,
+                     double size, ambulo__contact_load *load) {
+  double length = outline->length, *box = load->box;
+  double ahead = length + AMBULO__BEYOND_BALL * size;
+  if (part == AMBULO__WHOLE_FOOT) {
+    double arcs[] = {outline->arc_ahead[0], outline->arc_ahead[1] - outline->arc_ahead[0]};
+    return outline->has_arcs ? arcs[0] + at.along * arcs[1] : at.along * ahead;
+  }
   load->weight *= part == AMBULO__REAR_FOOT ? at.rear : at.fore;
   int end = part == AMBULO__REAR_FOOT; /* the one beside the joint */
   load->cut[end] = end ? box[1] > length : box[0] < length;
@@ -279,17 +336,17 @@ static double most_after(double rate, double onset_time, double time, double *by
 static void load_foot(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
                       const ambulo_contact *contact, const ambulo__stance *stance,
                       ambulo__slot_part part, double time, ambulo__contact_load *load) {
-  const ambulo_ground_reaction *r = &d->ground_reaction;
   load->rolled = rolled(contact, stance, time);
-  box_of(r, contact, outline->length, load->rolled, load->box);
-  double center = narrow(part, roll_of(contact, stance, time), outline->length,
-                         ambulo__model_size(d->model), load);
+  box_of(d, outline, contact, load->rolled, load->box);
+  int rolls = outline->has_arcs && !ambulo__mode_is_flat(contact->mode);
+  double center =
+      narrow(part, roll_of(contact, stance, time), outline, ambulo__model_size(d->model), load);
+  if (rolls && part == AMBULO__WHOLE_FOOT) center = under_arc(outline, contact, stance, time);
   for (int i = 0; i < 3; i++) load->center[i] += center * load->frame.forward[i];
   load->box[0] -= center;
   load->box[1] -= center;
-  load->side = r->pressure_width;
-  if (outline->has_arcs && !ambulo__mode_is_flat(contact->mode))
-    load->arc = outline->arc[ambulo__mode_is_on_toes(contact->mode)];
+  load->side = ambulo__pressure_side(d, outline);
+  if (rolls) load->arc = outline->arc[ambulo__mode_is_on_toes(contact->mode)];
 }
 
 /* (W.8) the contact of a slot */

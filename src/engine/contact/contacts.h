@@ -139,11 +139,13 @@ int ambulo__contacts_are_level(const ambulo_problem_definition *definition);
 enum { AMBULO__FOOT_CORNERS = 4 };
 
 typedef struct ambulo__foot_outline {
-  double length;                         /* heel centre to toe centre, m */
-  int moves_sideways;                    /* 0: a planar foot, which has no lateral rows */
-  int count;                             /* corners: 2 (planar foot) or 4 */
-  int point[AMBULO__FOOT_CORNERS];       /* the model's point of each corner */
-  int is_heel[AMBULO__FOOT_CORNERS];     /* heel corner, else toe corner */
+  double length;                     /* heel centre to toe centre, m */
+  double back, tip;                  /* where the sole ends, from the heel centre: back <= 0, m */
+  double half_width;                 /* from the middle to the corner that is nearest to it, m */
+  int moves_sideways;                /* 0: a planar foot, which has no lateral rows */
+  int count;                         /* corners: 2 (planar foot) or 4 */
+  int point[AMBULO__FOOT_CORNERS];   /* the model's point of each corner */
+  int is_heel[AMBULO__FOOT_CORNERS]; /* heel corner, else toe corner */
   double place[AMBULO__FOOT_CORNERS][2]; /* relative to the heel centre, m */
   int has_arcs;
   int arc[2];                     /* the model's points: centres of the arcs of heel and forefoot */
@@ -247,6 +249,14 @@ typedef struct ambulo__contact_load {
   double most_by_time; /* its derivative by ln T, all times being shares of the duration T */
   ambulo__contact_frame frame; /* of the contact */
 } ambulo__contact_load;
+
+/* Where pressure may be, as the problem gives it, or of the sole: 1: given. box: from the heel; of
+ * the flat foot its front from the ball; of the toes from the ball: m. The other: to either side. */
+int ambulo__pressure_box(const ambulo_problem_definition *definition,
+                         const ambulo__foot_outline *outline, ambulo_contact_mode mode,
+                         double box[2]);
+double ambulo__pressure_side(const ambulo_problem_definition *definition,
+                             const ambulo__foot_outline *outline);
 
 /* `contact` NULL: that which is active at `time`; else that contact, at one of its ends.
  * `outlines`: of the model's feet. */

@@ -2,6 +2,7 @@
  *
  *     de/dC = f,   de/dt = -de/dh = r n / (L sqrt(1 - s^2))
  *     d(F_n d)/dM = -l,   d(F_n d)/dC = -F_n f,   d(F_n d)/dF = f . (p - C) n
+ *     da/dF = -2 a x / (k m g) n,   x = F_n / (k m g)
  */
 #include "contact/curved.h"
 
@@ -38,14 +39,17 @@ static double rolling(const ambulo__arc *a, const double *y, int stride, double 
   return a->room + a->sign * (dot(a->forward, y, a->center, stride) - a->flat + a->radius * theta);
 }
 
+static const double light = 0.028; /* k: at a twentieth of the weight, 4 % of a0 is left */
+
 /* (R.2) a + (e0 F_n -+ F_n d) / (m g) */
 static double pressure(const ambulo__arc *a, const double *y, int stride, double *slope) {
   double normal = dot(a->up, y, a->force, stride), turn = dot(a->left, y, a->moment, stride);
   double apart = a->along - dot(a->forward, y, a->center, stride);
-  add(slope, a->force, a->up, (a->room + a->sign * apart) / a->weight);
+  double x = normal / (light * a->weight), allowed = a->slack * exp(-x * x);
+  add(slope, a->force, a->up, (a->room + a->sign * apart - 2.0 * allowed * x / light) / a->weight);
   add(slope, a->moment, a->left, -a->sign / a->weight);
   add(slope, a->center, a->forward, -a->sign * normal / a->weight);
-  return a->slack + (a->room * normal + a->sign * (normal * apart - turn)) / a->weight;
+  return allowed + (a->room * normal + a->sign * (normal * apart - turn)) / a->weight;
 }
 
 double ambulo__arc_value(const ambulo__arc *arc, const double *y, int stride, double *slope) {

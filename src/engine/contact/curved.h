@@ -162,7 +162,16 @@ double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride
  *
  *     F_n d = -l . M + F_n f . (p - C)                     N m
  *
- * Rows:   e0 -+ e >= 0   (m),     a + (e0 F_n -+ F_n d) / (m g) >= 0   (m), a the slack
+ * Rows:   e0 -+ e >= 0   (m),     a + (e0 F_n -+ F_n d) / (m g) >= 0   (m)
+ *
+ * What a contact without load is allowed, a0, goes as the load comes:
+ *
+ *     a = a0 exp(-(F_n / (k m g))^2),   k = .028
+ *
+ * so that a light contact, whose force hardly moves d, leaves the solve its way, and a loaded one
+ * presses under C: with a0 = .2 mm and e0 = .6 mm, within .8 mm from a twentieth of the weight on.
+ * An arc that rolls takes power from the ground at the rate F_n d dtheta/dt: d is what makes
+ * a ground that stands still do work.
  *
  * asin goes on as its tangent beyond a sine of .97, which no foot on the ground has. */
 
@@ -175,7 +184,7 @@ typedef struct ambulo__arc {
   double flat;                 /* c */
   int center, heel, toe;       /* first channels: C, h, t */
   int force, moment;           /* of a row on the centre of pressure: F, M; else -1 */
-  double along, weight, slack; /* f . p, m g; m */
+  double along, weight, slack; /* f . p, m g; a0, m */
 } ambulo__arc;
 
 /* The row's value at a node from its channels, channel k at y[k * stride]. Its slopes are added to

@@ -187,6 +187,17 @@ static void add_arcs(const ambulo_model *model, const ambulo_foot *foot, const d
   }
 }
 
+static void add_ends(const ambulo_model *model, int foot, ambulo__foot_outline *outline) {
+  double narrow = INFINITY;
+  outline->tip = fmax(outline->length, ambulo__foot_reach(model, foot));
+  for (int c = 0; c < outline->count; c++) {
+    if (outline->place[c][0] < -1e-9) /* rounding apart */
+      outline->back = fmin(outline->back, outline->place[c][0]);
+    narrow = fmin(narrow, fabs(outline->place[c][1]));
+  }
+  outline->half_width = isfinite(narrow) ? narrow : 0.0;
+}
+
 ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot) {
   ambulo__foot_outline outline = {.count = 0};
   const ambulo_foot *f = &model->feet[foot];
@@ -205,6 +216,7 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
   add_arcs(model, f, origin, ahead, &outline);
   for (int side = 0; side < 2; side++) add_corner(model, f->heel[side], 1, origin, ahead, &outline);
   for (int side = 0; side < 2; side++) add_corner(model, f->toe[side], 0, origin, ahead, &outline);
+  add_ends(model, foot, &outline);
   return outline;
 }
 

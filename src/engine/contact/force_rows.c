@@ -10,11 +10,11 @@
  *                                       models the two rows mu n.f -+ f.f >= 0
  *     back n.f <= -l.m <= front n.f     m, divided by W: -l.m / n.f is how far the centre of
  *     -side n.f <= f.m <= side n.f      pressure is ahead of p, f.m / n.f how far to the left;
- *                                       all with an allowance a of 2e-4 m at 1.75 m
+ *                                       all with an allowance a of 4e-5 m at 1.75 m
  *     |n.m| <= bound W                  m, divided by W
  *
- * Of an arc that rolls, the centre of pressure is within arc_pressure of under its centre
- * (contact/curved.h).
+ * Of an arc that rolls, the centre of pressure is within arc_pressure of under its centre, and the
+ * allowance goes with the load (contact/curved.h).
  *
  * A contact without weight carries exactly nothing and has no rows.
  */
@@ -27,11 +27,12 @@
 
 #include <math.h>
 
-/* m, times the weight: a contact that carries a hundredth of the weight may do so 2 cm beyond its
- * box. Just after a strike, and just before a foot leaves, forces are so small that rows without
- * it can hardly be moved: walks take up to four times the iterations, and of 300 random ones
- * (bench/random_walks.py) 11 are only feasible with half of it */
-static const double allowance = 2e-4;
+/* m, times the weight: a contact that carries a twentieth of the weight may do so .8 mm beyond its
+ * box. Forces are so small just after a strike, and just before a foot leaves, that rows without it
+ * can hardly be moved */
+static const double allowance = 4e-5;
+/* of an arc, whose region is a line, while it carries next to nothing */
+static const double arc_allowance = 2e-4;
 
 /* body weights: what the cone's tip is rounded by, and the most by which a force may exceed it */
 static const double cone_smoothing = 1e-4;
@@ -40,6 +41,8 @@ static const double cone_smoothing = 1e-4;
  * Its slopes turn with the drag: beside an event, where forces are as small as a tolerance, they
  * would else be anything (rigid feet on 217 intervals: KKT residual 2e-2) */
 static const double least_load = 1e-2;
+/* the same of an arc's pressure: without it walks take half as many iterations more */
+static const double least_arc_load = 0.1;
 
 typedef struct one {
   const ambulo__gait_context *context;
@@ -64,6 +67,12 @@ static void normal_rows(const one *c) {
           0.0, c->load.most);
 }
 
+/* the row that came last */
+static void relative_to_load(const one *c, double least) {
+  if (c->table->status) return;
+  c->table->rows[c->table->row_count - 1].size *= fmax(least, fmin(1.0, c->load.most));
+}
+
 static void cone_row(const one *c) {
   const double *up = c->load.frame.up;
   ambulo__cone cone = {.up = {up[0], up[1], up[2]},
@@ -73,8 +82,7 @@ static void cone_row(const one *c) {
                        .force = c->force};
   ambulo__row_cone(c->table, AMBULO__KIND_FRICTION, c->subject, "slips", c->node,
                    c->context->times[c->node], &cone);
-  if (c->table->status) return;
-  c->table->rows[c->table->row_count - 1].size *= fmax(least_load, fmin(1.0, c->load.most));
+  relative_to_load(c, least_load);
 }
 
 /* of a planar model, whose cone is two half planes */
@@ -107,7 +115,7 @@ static void arc_rows(const one *c) {
                      .force = c->force,
                      .moment = c->moment,
                      .weight = c->weight,
-                     .slack = allowance * ambulo__model_size(context->model)};
+                     .slack = arc_allowance * ambulo__model_size(context->model)};
   for (int i = 0; i < 3; i++) {
     arc.forward[i] = load->frame.forward[i];
     arc.left[i] = load->frame.left[i];
@@ -118,6 +126,7 @@ static void arc_rows(const one *c) {
     arc.sign = side ? -1.0 : 1.0;
     ambulo__row_arc(c->table, AMBULO__KIND_PRESSURE, c->subject, side ? "front" : "back", c->node,
                     context->times[c->node], &arc);
+    relative_to_load(c, least_arc_load);
   }
 }
 

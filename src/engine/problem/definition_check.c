@@ -56,7 +56,11 @@ static ambulo_status check_numbers(const checked *c, const double *value, size_t
                          value[i], unit[0] ? " " : "", unit, range[0], range[1],
                          m->flags & AMBULO__MAY_BE_OFF ? ", or AMBULO_OFF" : "");
   }
-  if (m->flags & AMBULO__RISING && value && !(value[0] < value[1]))
+  int off = m->count == 2 && value ? isnan(value[0]) + isnan(value[1]) : 0;
+  if (off == 1)
+    return REFUSE_MEMBER(c, "%s%s is [%g, %g]; expected two numbers, or AMBULO_OFF twice", c->owner,
+                         m->key, value[0], value[1]);
+  if (m->flags & AMBULO__RISING && value && !off && !(value[0] < value[1]))
     return REFUSE_MEMBER(c, "%s%s is [%g, %g]; expected lower < upper", c->owner, m->key, value[0],
                          value[1]);
   return AMBULO_OK;

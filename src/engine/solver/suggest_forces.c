@@ -166,29 +166,14 @@ static int modes_of(const ambulo__advice *a, ambulo_contact_mode mode[2]) {
   return count;
 }
 
-/* normal force that a row of pressure counts by, body weights. Where contacts share the load it is
- * that of the contact: both sides of its box add up to it, times the way between them, and what
- * is allowed on either side. */
+/* normal force that a row of pressure counts by, body weights: of the contact's row that says that
+ * the ground does not pull */
 static double counted_by(const ambulo__advice *a) {
-  const ambulo_problem *p = a->problem;
-  const ambulo__row_table *table = &p->table;
-  int first = ambulo__channel_foot_force(&p->channels, 0, 0);
-  int r = (int)(a->row - table->rows);
-  int begins = !strcmp(a->row->detail, "back") || !strcmp(a->row->detail, "right");
-  int pair[2] = {r, begins ? r + 1 : r - 1};
-  double across[3] = {0.0, 0.0, 0.0}, sum = 0.0;
-  for (int i = 0; i < 2; i++) {
-    const ambulo__table_row *row = &table->rows[pair[i]];
-    const ambulo__arc *arc = ambulo__row_arc_of(table, row);
-    if (arc) across[0] += arc->room;
-    for (int t = row->first_term; t < row->first_term + row->term_count; t++) {
-      int axis = (table->terms[t].channel - first) % AMBULO__SLOT_CHANNELS;
-      if (axis < 3) across[axis] += table->terms[t].coefficient * table->weight;
-    }
-    sum += a->values[pair[i]] - (arc ? arc->slack : row->constant);
-  }
-  double way = sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
-  return way > 0.0 ? sum / way : 0.0;
+  const ambulo__table_row *rows = a->problem->table.rows;
+  for (int r = (int)(a->row - rows); r >= 0; r--)
+    if (rows[r].kind == AMBULO__KIND_NORMAL_FORCE && !strcmp(rows[r].detail, "pulls"))
+      return a->values[r];
+  return 0.0;
 }
 
 /* a side of a box that ends at the joint of the toes, or under an arc, whatever its box */
@@ -201,26 +186,43 @@ static int is_fixed(const ambulo__advice *a) {
   return !strcmp(a->row->detail, heel ? "front" : "back");
 }
 
-/* a box with the side moved that the row is about; on an event those of both its contacts */
+static void append(char *text, size_t size, const char *name, const double *value, int count) {
+  size_t used = strlen(text);
+  const char *comma = used ? ", " : "";
+  if (isnan(value[0])) return;
+  if (count == 2)
+    (void)snprintf(text + used, size - used, "%s%s: [%.6g, %.6g]", comma, name, value[0], value[1]);
+  else
+    (void)snprintf(text + used, size - used, "%s%s: %.6g", comma, name, value[0]);
+}
+
+/* the boxes that the problem gives, and those with the side moved that the row is about; on an
+ * event those of both its contacts */
 static void set_boxes(const ambulo__advice *a, double room) {
-  ambulo_ground_reaction r = a->problem->definition.ground_reaction;
+  const ambulo_problem_definition *d = &a->problem->definition;
+  ambulo_ground_reaction r = d->ground_reaction;
   ambulo_contact_mode mode[2];
   int modes = modes_of(a, mode);
   if (modes == 0) return;
+  ambulo__foot_outline outline = ambulo__foot_outline_of(d->model, foot_of(a));
   int front = !strcmp(a->row->detail, "front"), back = !strcmp(a->row->detail, "back");
-  for (int i = 0; i < modes; i++) {
+  for (int i = 0; i < modes && (front || back); i++) {
     double *box = ambulo__mode_is_flat(mode[i])      ? r.flat_pressure
                   : ambulo__mode_is_on_toes(mode[i]) ? r.toe_pressure
                                                      : r.heel_pressure;
-    if (front) box[1] = ambulo__outward(box[1] + room, 1);
-    if (back) box[0] = ambulo__outward(box[0] - room, 0);
+    (void)ambulo__pressure_box(d, &outline, mode[i], box);
+    box[front] = ambulo__outward(box[front] + (front ? room : -room), front);
   }
-  if (!front && !back) r.pressure_width = ambulo__outward(r.pressure_width + room, 1);
-  ambulo__advice_set(a,
-                     "ground_reaction.pressure={heel: [%.6g, %.6g], roll: %.6g, flat: [%.6g, "
-                     "%.6g], toe: [%.6g, %.6g], width: %.6g}",
-                     r.heel_pressure[0], r.heel_pressure[1], r.heel_roll, r.flat_pressure[0],
-                     r.flat_pressure[1], r.toe_pressure[0], r.toe_pressure[1], r.pressure_width);
+  if (!front && !back)
+    r.pressure_width = ambulo__outward(ambulo__pressure_side(d, &outline) + room, 1);
+  char text[300] = "";
+  append(text, sizeof text, "heel", r.heel_pressure, 2);
+  if (!isnan(r.heel_pressure[0])) append(text, sizeof text, "roll", &r.heel_roll, 1);
+  append(text, sizeof text, "flat", r.flat_pressure, 2);
+  append(text, sizeof text, "toe", r.toe_pressure, 2);
+  append(text, sizeof text, "width", &r.pressure_width, 1);
+  append(text, sizeof text, "arc", &r.arc_pressure, 1);
+  ambulo__advice_set(a, "ground_reaction.pressure={%s}", text);
 }
 
 static void pressure(const ambulo__advice *a) {
