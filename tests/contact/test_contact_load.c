@@ -280,6 +280,33 @@ static void the_load_comes_and_goes_at_a_rate(void **state) {
   close_it(&f);
 }
 
+/* at a strike, and half-way to toe-off, at the usual pitch; where the foot is flat under the arc's
+ * centre */
+static void the_centre_is_where_an_arc_touches(void **state) {
+  (void)state;
+  test_contact_load_fixture f;
+  test_contact_load_open_with(&f, walker_create(0), 2);
+  for (int i = 0; i < 2; i++) {
+    ambulo__foot_outline *o = &f.outlines[i];
+    o->has_arcs = 1;
+    o->arc_ahead[0] = 0.01;
+    o->arc_ahead[1] = 0.2;
+    o->radius[0] = 0.02;
+    o->radius[1] = 0.03;
+  }
+  static const struct {
+    double time, ahead;
+  } cases[] = {{1e-9, 0.01 - 0.02 * 0.35},
+               {0.1 - 1e-9, 0.01},
+               {0.4 + 1e-9, 0.2},
+               {0.5, 0.2 + 0.03 * 0.9 / 4}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ambulo__contact_load now = load_at(&f, WALKER_LEFT, cases[i].time);
+    assert_close(now.center[0] - now.frame.origin[0], cases[i].ahead, 1e-8);
+  }
+  close_it(&f);
+}
+
 /* no jump of weight or centre as time goes on, and none of force: a slot that begins or ends has no
  * weight there; of feet with and without a joint of the toes */
 static void nothing_jumps(void **state) {
@@ -401,6 +428,7 @@ int main(void) {
       cmocka_unit_test(contacts_press_where_the_sole_is),
       cmocka_unit_test(outlines_end_at_corners_and_tip),
       cmocka_unit_test(the_load_comes_and_goes_at_a_rate),
+      cmocka_unit_test(the_centre_is_where_an_arc_touches),
       cmocka_unit_test(nothing_jumps),
       cmocka_unit_test(a_foot_with_a_joint_rolls_from_one_part_to_the_other),
       cmocka_unit_test(a_mirrored_step_is_told_the_same),

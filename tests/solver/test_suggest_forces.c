@@ -204,18 +204,17 @@ static void pressure_is_missed_by_what_its_force_makes_of_it(void **state) {
 #define TOE ", toe: [-0.02, 0.055], "
   static const struct {
     const char *settings, *detail, *phrase, *boxes;
-  } cases[] = {
-      {GIVEN, "front", "of left go 0.02 m further front",
-       HEEL "flat: [-0.005, 0.0404]" TOE "width: 0.035"},
-      {GIVEN, "back", "of left go 0.02 m further back",
-       HEEL "flat: [-0.0254, 0.02]" TOE "width: 0.035"},
-      {GIVEN, "left", "of left go 0.02 m further left",
-       HEEL "flat: [-0.005, 0.02]" TOE "width: 0.0554"},
-      {GIVEN, "right", "of left go 0.02 m further right",
-       HEEL "flat: [-0.005, 0.02]" TOE "width: 0.0554"},
-      {SHARED, "front", "of left go 0.02 m further front", "flat: [0, 0.0404]"},
-      {SHARED, "back", "of left go 0.02 m further back", "flat: [-0.0204, 0.02]"},
-      {SHARED, "left", "of left go 0.02 m further left", "width: 0.0604"}};
+  } cases[] = {{GIVEN, "front", "of left go 0.02 m further front",
+                HEEL "flat: [-0.005, 0.0404]" TOE "width: 0.035"},
+               {GIVEN, "back", "of left go 0.02 m further back",
+                HEEL "flat: [-0.0254, 0.02]" TOE "width: 0.035"},
+               {GIVEN, "left", "of left go 0.02 m further left",
+                HEEL "flat: [-0.005, 0.02]" TOE "width: 0.0554"},
+               {GIVEN, "right", "of left go 0.02 m further right",
+                HEEL "flat: [-0.005, 0.02]" TOE "width: 0.0554"},
+               {SHARED, "front", "of left go 0.02 m further front", "flat: [0, 0.0404]"},
+               {SHARED, "back", "of left go 0.02 m further back", "flat: [-0.0204, 0.02]"},
+               {SHARED, "left", "of left go 0.02 m further left", "width: 0.0604"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     const char *settings[] = {cases[i].settings};
     ambulo_problem *p = load(WALK, settings, 1);

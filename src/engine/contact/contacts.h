@@ -251,7 +251,8 @@ typedef struct ambulo__contact_load {
 } ambulo__contact_load;
 
 /* Where pressure may be, as the problem gives it, or of the sole: 1: given. box: from the heel; of
- * the flat foot its front from the ball; of the toes from the ball: m. The other: to either side. */
+ * the flat foot its front from the ball; of the toes from the ball: m. The other: to either side.
+ */
 int ambulo__pressure_box(const ambulo_problem_definition *definition,
                          const ambulo__foot_outline *outline, ambulo_contact_mode mode,
                          double box[2]);
