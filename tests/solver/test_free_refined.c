@@ -45,7 +45,8 @@ static void the_last_grid_holds_between_its_nodes(void **state) {
 /* one grid more tells how much there was to gain */
 static void the_objective_settles(void **state) {
   (void)state;
-  ambulo_problem *problem = load("walk_normal", NULL, 0), *finer = NULL;
+  static const char *const coarse[] = {"time.intervals=64", "trajectory.intervals=14"};
+  ambulo_problem *problem = load("walk_normal", coarse, 2), *finer = NULL;
   ambulo_result *one = NULL, *result = NULL;
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &one), AMBULO_OK);
   assert_null(ambulo_result_refinement(one));

@@ -65,15 +65,16 @@ static void several_are_never_worse_than_one(void **state) {
  * best of all is returned; an optimum needs no second look */
 static void what_leaves_doubts_has_a_second_look(void **state) {
   (void)state;
-  static const char *const settings[] = {"load.mass=150", "constraints.torque_limits=true"};
+  static const char *const settings[] = {"load.mass=240", "constraints.torque_limits=true"};
   ambulo_problem *problem = NULL;
   assert_int_equal(
       ambulo_problem_load("models/walk_loaded.yaml", settings, 2, NULL, NULL, &problem), AMBULO_OK);
   ambulo_result *result = solve(problem, 1, NULL);
   const ambulo_starts *s = ambulo_result_starts(result);
-  assert_true(result->audit.kkt <= 1e-3);
-  assert_true(!s || s->count == 3);
-  assert_true(result->objective < 4.2); /* the own start ends at 4.66, far from optimal */
+  assert_int_equal(result->verdict, AMBULO_FEASIBLE);
+  assert_true(result->audit.kkt > 1e-3);
+  assert_non_null(s);
+  assert_int_equal(s->count, 3);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
 
