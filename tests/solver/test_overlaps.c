@@ -62,8 +62,8 @@ static void overlaps_without_rows_are_told(void **state) {
   ambulo_result *result = NULL;
   solve("models/walk_normal.yaml", "constraints.collision=off", &problem, &result);
   assert_int_equal(ambulo_problem_pairs(problem, 0, NULL), 0);
-  assert_true(depth_of(result, "shank_r", "shank_l") > 0.015);
-  assert_true(depth_of(result, "thigh_r", "thigh_l") > 0.015);
+  assert_true(depth_of(result, "shank_r", "shank_l") > 0.01);
+  assert_true(depth_of(result, "thigh_r", "thigh_l") > 0.01);
   const ambulo_overlap *deepest = overlaps(result)->overlaps;
   for (int i = 1; i < overlaps(result)->overlap_count; i++)
     assert_true(overlaps(result)->overlaps[i].depth <= deepest->depth);
