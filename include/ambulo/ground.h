@@ -46,6 +46,8 @@ typedef struct ambulo_ground_reaction {
                               body weights, and so is the moment about its centre of mass, body
                               weights times 1 m at a stature of 1.75 m, scaled by it. At the nodes
                               of a flight that its spline can hold, 1/50 of it */
+  double heel_pad; /* m: how far a heel sinks under the body weight, like a spring that gives
+                      back what it takes; 0: rigid. Needs a contact_tolerance */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at toe-off to 1 at strike;

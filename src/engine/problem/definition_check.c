@@ -324,6 +324,22 @@ static ambulo_status check_strike_pitch(const double *pitch, ambulo_diagnostics 
                 pitch[0], pitch[1]);
 }
 
+/* a pad goes with the forces of the ground, within what a foot may be off */
+static ambulo_status check_heel_pad(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  double pad = d->ground_reaction.heel_pad;
+  if (pad == 0.0) return AMBULO_OK;
+  if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
+    return REFUSE(list,
+                  "ground_reaction.heel_pad is %g m and no forces press on it; expected kind "
+                  "shared, or 0",
+                  pad);
+  if (d->contact_tolerance > 0.0) return AMBULO_OK;
+  return REFUSE(list,
+                "ground_reaction.heel_pad is %g m without constraints.contact_tolerance, and heels "
+                "are held rigidly; expected a tolerance, or 0",
+                pad);
+}
+
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
                                        ambulo_diagnostics *diagnostics) {
   const ambulo__structure *all = &ambulo__definition_members;
@@ -336,6 +352,7 @@ ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
   ambulo_status others[] = {check_terms(d, diagnostics),
                             check_ends(d, diagnostics),
                             check_strike_pitch(d->strike_pitch, diagnostics),
+                            status ? AMBULO_OK : check_heel_pad(d, diagnostics),
                             status ? AMBULO_OK : ambulo__tubes_check(d, diagnostics),
                             ambulo__collision_check(d, diagnostics),
                             ambulo__devices_check(d, diagnostics),

@@ -63,6 +63,8 @@ static const ambulo__member ground_reaction[] = {
      "loading rate of contacts"},
     {NUMBER("flight_tolerance", flight_tolerance, 1e-6, 1.0, 0.002), 0, AMBULO__RATIO,
      "force that is left in flight"},
+    {NUMBER("heel_pad", heel_pad, 0.0, 0.1, 0.0), LENGTH, AMBULO__SHORT_LENGTH,
+     "give of the heel's pad"},
 };
 TABLE("ground_reaction", ground_reaction);
 #undef OF

@@ -213,6 +213,7 @@ static int is_idle(const ambulo__parameters *p, const void *item, const ambulo__
   if (at == &d->support_margin) return d->support == AMBULO_SUPPORT_OFF;
   if (at == &d->ground_height) return d->contact_count == 0;
   if (at == &d->ground_reaction.flight_tolerance) return !ambulo__flight_span(d, &flight);
+  if (at == &d->ground_reaction.heel_pad) return d->ground_reaction.heel_pad == 0.0;
   if (strncmp(m->key, "pressure.", 9) == 0) return !d->ground_reaction.pressure;
   /* others are moved with what they belong to; the least force has a key of its own with forces */
   return at == &d->duration || at == &d->travel || at == &d->rise || at == &d->minimum_force;
