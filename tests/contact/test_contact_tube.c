@@ -1,4 +1,5 @@
-/* Contact tubes at q = 0: left heel at (-0.05, 0.09), left toe at (0.17, 0.09) m, sole level. */
+/* Contact tubes at q = 0: left heel at (-0.05, 0.09), left toe at (0.17, 0.09) m, sole level.
+ * Heel's pads are in test_heel_pad.c. */
 #include "contact/rows.h"
 #include "support/row_fixture.h"
 #include "support/toed_body.h"
