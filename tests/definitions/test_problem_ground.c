@@ -13,6 +13,7 @@ static void expect_reaction(const ambulo_ground_reaction *r) {
   assert_close(r->slant, 0.8, 1e-15);
   assert_close(r->loading_rate, 12.0, 1e-15);
   assert_close(r->flight_tolerance, 0.03, 1e-15);
+  assert_close(r->heel_pad, 0.007, 1e-15);
   assert_close(r->friction, 0.4, 1e-15);
   assert_true(isnan(r->free_moment));
   assert_close(r->heel_pressure[0], -0.01, 1e-15);
@@ -46,7 +47,8 @@ static void everything_is_read(void **state) {
       HEAD REST
       "angles: degrees\n"
       "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.8, loading_rate: 12, "
-      "flight_tolerance: 0.03, friction: 0.4, free_moment: off, minimum_force: 0.1, pressure: "
+      "flight_tolerance: 0.03, heel_pad: 0.007, friction: 0.4, free_moment: off, minimum_force: "
+      "0.1, pressure: "
       "{heel: [-0.01, "
       "0.02], roll: 0.05, flat: [0.01, 0.03], toe: [-0.03, 0.04], width: 0.03}}\n"
       "constraints: {contact_tolerance: 0.003, orientation_tolerance: 0.02, strike_pitch: "
@@ -63,6 +65,7 @@ static void defaults(void **state) {
   const ambulo_ground_reaction *r = &p->definition.ground_reaction;
   assert_int_equal(r->kind, AMBULO_REACTION_SHARED);
   assert_int_equal(r->pressure, 0);
+  assert_close(r->heel_pad, 0.0, 0.0);
   assert_true(!(p->definition.minimum_force >= 0.0));
   assert_true(isnan(p->definition.clearance.height));
   assert_true(isnan(p->definition.clearance.feet));

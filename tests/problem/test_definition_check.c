@@ -131,6 +131,7 @@ static void numbers_have_ranges(void **state) {
       {&r->toe_pressure[0], "pressure.toe", MAY_BE_OFF},
       {&r->pressure_width, "pressure.width", MAY_BE_OFF},
       {&r->arc_pressure, "pressure.arc", 0},
+      {&r->heel_pad, "ground_reaction.heel_pad", 0},
       {&b.terms[0].weight, "objective[0]", 0},
       {&b.terms[0].smoothing, "objective[0]", 0},
       {&b.terms[0].power, "objective[0]", 0},
@@ -187,6 +188,20 @@ static void what_is_missing_is_named(void **state) {
   expect_message(&b, "objective[0] (user_square): no function");
   b.terms[0] = ambulo_term_default(AMBULO_FORCE_RATE);
   expect_message(&b, "objective[0] (force_rate): no forces on feet without ground_reaction");
+  ambulo_model_free(b.model);
+}
+
+/* a pad goes with a force, and a foot gives within a tolerance */
+static void a_pad_needs_forces_and_a_tolerance(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  b.d.ground_reaction.heel_pad = 0.008;
+  expect_message(&b, "ground_reaction.heel_pad is 0.008 m and no forces press on it");
+  b.d.ground_reaction.kind = AMBULO_REACTION_SHARED;
+  expect_message(&b, "ground_reaction.heel_pad is 0.008 m without constraints.contact_tolerance");
+  b.d.contact_tolerance = 0.001;
+  expect_message(&b, "press on the surroundings with 0 links");
   ambulo_model_free(b.model);
 }
 
@@ -358,6 +373,7 @@ int main(void) {
                                      cmocka_unit_test(numbers_have_ranges),
                                      cmocka_unit_test(no_bound_is_a_bound),
                                      cmocka_unit_test(what_is_missing_is_named),
+                                     cmocka_unit_test(a_pad_needs_forces_and_a_tolerance),
                                      cmocka_unit_test(some_weight_is_not_zero),
                                      cmocka_unit_test(a_line_has_a_length)};
   return cmocka_run_group_tests(tests, NULL, NULL);

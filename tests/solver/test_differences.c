@@ -142,6 +142,23 @@ static void a_walk_on_shared_arcs(void **state) {
   check(&c, NULL);
 }
 
+/* heels that sink by what presses on them, which goes with the foothold, the events, the weight */
+static void a_walk_on_heel_pads(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk.yaml",
+      {"ground_reaction.heel_pad=0.008", "ground={slope: 3}",
+       "load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}", "time.intervals=48"},
+      {"ground_reaction.heel_pad", "ground_reaction.moment_arm", "gait.speed", "gait.step_width",
+       "gait.phases.foot_flat.comfortable", "gait.phases.heel_off.comfortable", "subject.mass",
+       "load.mass", "ground.slope"}};
+  static const setting rigid = {
+      "models/walk.yaml", {"ground_reaction.heel_pad=0", "time.intervals=48"}, {NULL}};
+  static const char *const idle[] = {"ground_reaction.heel_pad", NULL};
+  check(&c, NULL);
+  expect_absent(&rigid, idle);
+}
+
 /* Nothing holds the body for part of the step; steps and phases are functions of the speed. Of
  * force_rate as little as leaves differences of the toe-off their digits. */
 static void a_run(void **state) {
@@ -226,6 +243,7 @@ int main(void) {
       cmocka_unit_test(a_walk_on_shared_contacts),
       cmocka_unit_test(a_walk_on_shared_contacts_on_events),
       cmocka_unit_test(a_walk_on_shared_arcs),
+      cmocka_unit_test(a_walk_on_heel_pads),
       cmocka_unit_test(a_cadence_at_a_speed),
       cmocka_unit_test(two_arms),
   };

@@ -184,6 +184,14 @@ static void contacts_that_share_solved_anew(void **state) {
   compare("tests/support/walker_2d_step.yaml", base, 11, names, 2e-3, 5e-2);
 }
 
+/* on heels that sink */
+static void a_heel_pad_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {SHARED_ON_EVENTS, "ground_reaction.heel_pad=0.006"};
+  static const char *const names[] = {"ground_reaction.heel_pad", NULL};
+  compare("tests/support/walker_2d_step.yaml", base, 12, names, 1e-1, 5e-2);
+}
+
 /* onto a slope, all of a stance at once, times that contacts of both feet share */
 static void a_step_up_solved_anew(void **state) {
   (void)state;
@@ -330,12 +338,19 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),       cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(a_load_solved_anew),       cmocka_unit_test(a_load_on_events_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew),   cmocka_unit_test(phases_solved_anew),
-      cmocka_unit_test(the_dearest_stands_first), cmocka_unit_test(no_optimum_has_none),
-      cmocka_unit_test(arguments_are_checked),    cmocka_unit_test(contacts_that_share_solved_anew),
-      cmocka_unit_test(a_step_up_solved_anew),    cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),
+      cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(a_load_solved_anew),
+      cmocka_unit_test(a_load_on_events_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),
+      cmocka_unit_test(phases_solved_anew),
+      cmocka_unit_test(the_dearest_stands_first),
+      cmocka_unit_test(no_optimum_has_none),
+      cmocka_unit_test(arguments_are_checked),
+      cmocka_unit_test(contacts_that_share_solved_anew),
+      cmocka_unit_test(a_heel_pad_solved_anew),
+      cmocka_unit_test(a_step_up_solved_anew),
+      cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

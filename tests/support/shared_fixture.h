@@ -130,6 +130,7 @@ static inline void fixture_open(fixture *f, int kind) {
   d.degree = 4;
   d.grid = d.knots = AMBULO_GRID_EVENTS;
   d.ground_reaction.kind = AMBULO_REACTION_SHARED;
+  d.ground_reaction.heel_pad = 0.008;
   d.contact_tolerance = 0.002;
   d.ground_penetration = 1;
   d.clearance.height = 0.02;

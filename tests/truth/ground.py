@@ -5,7 +5,8 @@ the normal n, F_n = n . F:
     pressure   c = o + n x M / F_n inside of the sole, where F_n is above a twentieth
     pull       F_n >= 0
     work       int (F . v_c + (M - (c - o) x F) . w) dt = int (twist . wrench) dt = 0: a ground that stands
-               still does none; beside the work of joints that is positive, sum of int max(0, tau v) dt
+               still does none; less what heels' pads hold at the end more than at the beginning; beside the
+               work of joints that is positive, sum of int max(0, tau v) dt
 
 Without forces of the ground the zero-moment point of the whole body takes the place of c, inside of the hull
 of the soles that are down.
@@ -14,6 +15,8 @@ of the soles that are down.
 import numpy as np
 
 import loads
+import pads
+from loads import center
 from sole import at, larger, soles
 
 
@@ -48,14 +51,6 @@ def pull(motion, ground):
         down = -(load.force @ normal_of(motion, load)) / motion.body.weight
         worst = larger(worst, (max(0.0, down.max()), f"{load.name} {at(motion, down.argmax())}"))
     return worst
-
-
-def center(load, n, origin):
-    """Of pressure, on the plane through origin across n; wrong where nothing presses."""
-    up = load.force @ n
-    moment = load.moment - np.cross(origin, load.force)
-    with np.errstate(all="ignore"):
-        return origin + np.cross(n, moment) / up[:, None]
 
 
 def pressure(motion, ground):
@@ -97,6 +92,9 @@ def work(motion, ground):
     joints = np.array([motion.body.coordinates[n]["actuated"] for n in names])
     positive = motion.integral(np.maximum(0, (motion.tau * motion.v)[:, joints]).sum(1))[-1]
     done = sum(motion.integral(load.power(motion))[-1] for load in ground)
+    for sole in soles(motion).values():
+        held = pads.energy(motion, sole)
+        done += held[-1] - held[0]
     return 100 * abs(done) / positive, f"{done:+.2f} J of {positive:.1f} J"
 
 

@@ -24,6 +24,14 @@ class Load:
         return (self.force * v).sum(1) + (about * w).sum(1)
 
 
+def center(load, n, origin):
+    """Of pressure, on the plane through origin across n; wrong where nothing presses."""
+    up = load.force @ n
+    moment = load.moment - np.cross(origin, load.force)
+    with np.errstate(all="ignore"):
+        return origin + np.cross(n, moment) / up[:, None]
+
+
 def of_ground(motion):
     loads = []
     if not motion.reaction:

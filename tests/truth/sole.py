@@ -4,7 +4,8 @@ A foot with arcs is a rolling one. Its sole is round about two axes across the f
 centres C, with radii r, the heights of the centres above the sole at q = 0; between them it is flat. At a
 pitch above FLAT it touches the ground in the line under C of the heel, below -FLAT in that of the ball,
 otherwise with all of it, from the heel's corners to the tip. Without arcs the lines are those of the corners, and
-below -FLAT toes bend and lie on the ground from the ball to the tip. The pitch is
+below -FLAT toes bend and lie on the ground from the ball to the tip. The pitch, less that by which the heel's pad
+gives, is
 
     theta = asin(n . (t - h) / L),   h, t the centres of heel and ball, L their distance.
 """
@@ -12,6 +13,7 @@ below -FLAT toes bend and lie on the ground from the ball to the tip. The pitch 
 import numpy as np
 import pinocchio as pin
 
+import pads
 from body import listed
 
 FLAT = 0.006  # rad beyond what the problem allows a flat foot
@@ -85,7 +87,7 @@ class Sole:
     def outside(self, place):
         """How far a point of the ground is outside of what of the sole touches it, m."""
         origin, f, heel, ball, tip = self.reach()
-        theta, flat = self.pitch(), self.flat()
+        theta, flat = self.pitch() - pads.depth(self.motion, self) / (ball - heel), self.flat()
         ahead_end = np.maximum(ball, tip)
         back = np.minimum(heel, 0.0)  # the corners of the heel
         low = np.where(theta < -flat, ball, np.where(theta > flat, heel, back))
@@ -160,12 +162,13 @@ def slip(motion):
 
 
 def sinks(motion):
-    """mm, at all times, in contact or not. Tips do not count: toes bend."""
+    """mm, at all times, in contact or not, less what the pad of a heel gives. Tips do not count: toes bend."""
     worst = None
     for name, sole in soles(motion).items() if motion.contacts else ():
         for end in ("heel", "toe"):
+            give = pads.depth(motion, sole) if end == "heel" else 0.0
             for place, _ in sole.lowest(end):
-                depth = motion.ground(place) - place @ motion.body.up
+                depth = motion.ground(place) - place @ motion.body.up - give
                 worst = larger(worst, (1e3 * depth.max(), f"{name} {end} {at(motion, depth.argmax())}"))
     return worst if worst is None else (max(0.0, worst[0]), worst[1])
 

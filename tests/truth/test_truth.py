@@ -1,7 +1,8 @@
 """The judge is judged: distances against brute force, splines against differences, and a walk, a jump and a lift
 whose files are changed, each of which must move the cell that it concerns beyond its bound.
 
-    python tests/truth/test_truth.py FOLDER    a scratch folder; results of `walk`, `jump`, `lift` are in it
+    python tests/truth/test_truth.py FOLDER    a scratch folder; results of `walk`, `jump`, `lift` are in it,
+                                              and the file of `walk_padded`, which has a heel pad
 """
 
 import csv
@@ -121,7 +122,9 @@ def control_point(coordinate, by):
         lines = open(path, encoding="utf-8").read().split("\n")
         at = strict_yaml.load(path)["coordinates"].index(coordinate)
         first = lines.index("control_points:") + 1
-        for k in range(first, len(lines) - 1):
+        for k in range(first, len(lines)):
+            if not lines[k].startswith("  - ["):
+                break  # what follows are multipliers
             numbers = lines[k].strip()[3:-1].split(", ")
             numbers[at] = repr(float(numbers[at]) + by * (k - first))
             lines[k] = "  - [" + ", ".join(numbers) + "]"
@@ -155,6 +158,7 @@ FAULTS = [
     ("walk", control_point("pelvis_tx", 0.004), ["spline", "ground work", "slip"]),
     ("walk", control_point("hip_adduction_r", 0.03), ["overlap"]),
     ("walk", scene(shorter), ["sinks"]),
+    ("walk_padded", column("grf.left.y", lambda x: 0.5 * x), ["sinks"]),
     ("lift", column("held.box.hand_r.force.y", lambda x: x + 0.1), ["held", "root"]),
     ("lift", control_point("elbow_flex_r", -0.02), ["joint limits", "held"]),
     ("lift", column("tau.knee_angle_r", lambda x: 20 * x), ["torque limits"]),
@@ -169,6 +173,8 @@ def faults_of(scratch):
     for k, (problem, change, cells) in enumerate(FAULTS):
         def check(problem=problem, change=change, cells=cells):
             file, folder = os.path.join(MODELS, problem + ".yaml"), os.path.join(scratch, problem)
+            if not os.path.exists(file):
+                file = folder + ".yaml"
             if problem not in before:
                 before[problem] = cells_of(file, folder)
             wrong = os.path.join(scratch, "wrong")
