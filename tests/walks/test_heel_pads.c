@@ -120,11 +120,13 @@ static void heels_sink_alike_in_the_mirror(void **state) {
   size_t size = (size_t)p->variables;
   double *x = calloc(size, sizeof *x), *y = calloc(size, sizeof *y);
   double *one = calloc((size_t)p->rows, sizeof *one), *other = calloc((size_t)q->rows, sizeof *one);
-  for (int i = 0; i < n * points; i++)
-    x[i] = (i % n < 3 ? 0.01 : 0.1) * sin(0.3 * (i / n) + 1.7 * (i % n));
-  for (int i = 0; i < n * points; i++) {
-    const ambulo_coordinate *c = &p->model->coordinates[i % n];
-    y[i - i % n + c->mirror] = c->mirror_sign * x[i];
+  for (int k = 0; k < points; k++) {
+    for (int i = 0; i < n; i++) {
+      const ambulo_coordinate *c = &p->model->coordinates[i];
+      double value = (i < 3 ? 0.01 : 0.1) * sin(0.3 * k + 1.7 * i);
+      x[k * n + i] = value;
+      y[k * n + c->mirror] = c->mirror_sign * value;
+    }
   }
   int count = contact_values(p, x, one);
   assert_true(count > 500);
