@@ -14,7 +14,7 @@
   "{name: brake, kind: damper, between: [{link: thorax, position: [0, 0.3, 0.1]}, {link: "         \
   "shank_r, position: [0.02, -0.1, 0]}], damping: 20, mirror: true}"
 
-enum { SAMPLES = 23, MOST = 21 };
+enum { SAMPLES = 23, MOST = 23 };
 
 typedef struct worn {
   ambulo_problem *problem;
