@@ -70,12 +70,13 @@ files_are_there() {
   return $lost
 }
 
-# options that a page gives to a command are among those of its --help
+# options that a page gives to a command are among those of its --help, or of a script in docs/examples
 options_exist() {
   local page option lost=0 command
   : >"$work/options"
   while read -r command; do "$out/ambulo" "$command" --help; done <"$work/commands" >"$work/options"
   "$out/ambulo" --help >>"$work/options"
+  grep -ohE -e '"--[a-z-]+"' docs/examples/*.py >>"$work/options"
   for page in README.md docs/*.md; do
     while read -r option; do
       grep -q -e "$option\b" "$work/options" || { echo "$page: no option $option"; lost=1; }

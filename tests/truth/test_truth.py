@@ -158,7 +158,7 @@ FAULTS = [
     ("walk", control_point("pelvis_tx", 0.004), ["spline", "ground work", "slip"]),
     ("walk", control_point("hip_adduction_r", 0.03), ["overlap"]),
     ("walk", scene(shorter), ["sinks"]),
-    ("walk_padded", column("grf.left.y", lambda x: 0.5 * x), ["sinks"]),
+    ("walk", column("grf.left.y", lambda x: 0.5 * x), ["sinks"]),
     ("lift", column("held.box.hand_r.force.y", lambda x: x + 0.1), ["held", "root"]),
     ("lift", control_point("elbow_flex_r", -0.02), ["joint limits", "held"]),
     ("lift", column("tau.knee_angle_r", lambda x: 20 * x), ["torque limits"]),

@@ -14,11 +14,13 @@
  * with h the heel's centre and v its velocity, c the centre of pressure, M the free moment, omega
  * from the foot's own three axes x_i: omega = sum x_i x (dx_i / dt) / 2. Velocities are central
  * differences of positions. */
+#include "problem/nlp.h"
 #include "support/solved_walk.h"
 
 enum { WALKS = 11 };
 
-static const double most_work = 0.01; /* of the ground, by the joints' positive */
+static const double most_work = 0.01; /* of the ground, by the joints' positive, of feet that may
+                                       * be half a millimetre off; more in proportion */
 
 static const struct {
   const char *path, *setting;
@@ -32,10 +34,16 @@ static const struct {
                   {"models/walk_uphill.yaml", NULL},
                   {"models/walk_asymmetric.yaml", NULL},
                   {"models/walk_tracking.yaml", NULL},
-                  {"models/walk.yaml", "ground_reaction.heel_pad=0.008"}};
+                  {"models/walk.yaml", "constraints.contact_tolerance=0.0005"}};
 
 static const char *name_of(int i) {
   return walks[i].setting ? walks[i].setting : walks[i].path;
+}
+
+/* half millimetres that the feet may be off, at least one */
+static double looseness(const walk *w) {
+  double tolerance = w->problem->definition.contact_tolerance;
+  return fmax(tolerance / 0.0005, 1.0);
 }
 
 static double lifted(const walk *w) {
@@ -133,26 +141,26 @@ static void the_ground_does_next_to_no_work(void **state) {
   for (int i = 0; i < WALKS; i++) {
     const walk *w = &all[i];
     double positive, net = joint_work(w, &positive), ground = lifted(w) - net;
-    double feet = work_at_the_feet(w);
-    if (!(fabs(ground) <= most_work * positive && fabs(feet - ground) <= 0.002 * positive))
+    double feet = work_at_the_feet(w), most = most_work * looseness(w) * positive;
+    if (!(fabs(ground) <= most && fabs(feet - ground) <= 0.002 * positive))
       print_error("%s: the ground does %.3f J, at the feet %.3f J; joints %.2f J\n", name_of(i),
                   ground, feet, positive);
     assert_true(positive > 20.0);
-    assert_true(fabs(ground) <= most_work * positive);
+    assert_true(fabs(ground) <= most);
     assert_true(fabs(feet - ground) <= 0.002 * positive);
   }
 }
 
-/* at rest would be 0: feet move within contact_tolerance, half a millimetre, and
- * orientation_tolerance, to and fro as fast as the trajectory's knots let them (measured: 69 to 95
- * mm/s at most, 27 to 40 rms) */
+/* at rest would be 0: feet move within contact_tolerance and orientation_tolerance, to and fro as
+ * fast as the trajectory's knots let them (measured with half a millimetre: 57 to 80 mm/s at most,
+ * 23 to 30 rms; with 1 mm, walk.yaml: 78 to 170 at most, 33 to 70 rms) */
 static void loaded_feet_slip_within_their_tolerance(void **state) {
   const walk *all = *state;
   for (int i = 0; i < WALKS; i++) {
-    double rms, most = slip(&all[i], &rms);
-    if (!(most <= 0.105 && rms <= 0.043))
+    double rms, loose = looseness(&all[i]), most = slip(&all[i], &rms);
+    if (!(most <= 0.105 * loose && rms <= 0.043 * loose))
       print_error("%s: %.1f mm/s at most, %.1f rms\n", name_of(i), 1e3 * most, 1e3 * rms);
-    assert_true(most <= 0.105 && rms <= 0.043);
+    assert_true(most <= 0.105 * loose && rms <= 0.043 * loose);
   }
 }
 

@@ -55,34 +55,33 @@ static double kept_by_pads(const walk *w, double *most) {
 static void expect_given_back(const walk *w, double part) {
   double positive, most, off = kept_by_pads(w, &most);
   (void)joint_work(w, &positive);
-  if (!(off <= part * most && most >= 0.03 * positive))
+  if (!(off <= part * most && most >= 0.025 * positive))
     print_error("pads: %.3f J of %.2f J are lost; joints %.2f J\n", off, most, positive);
-  assert_true(most >= 0.03 * positive);
+  assert_true(most >= 0.025 * positive);
   assert_true(off <= part * most);
 }
 
-/* within what the tolerances of the contacts give and take at any time, all along the stance
- * (measured: .54 J of 2.08) */
+/* within what the tolerances of the contacts, half of the shipped ones, give and take at any time,
+ * all along the stance (measured: .54 J of 1.97; 1.04 of 2.07 with the shipped ones) */
 static void pads_give_back_what_they_take(void **state) {
   (void)state;
-  static const char *const settings[] = {"ground_reaction.heel_pad=0.008"};
+  static const char *const settings[] = {"constraints.contact_tolerance=0.0005",
+                                         "constraints.orientation_tolerance=0.0025"};
   walk w;
-  open_walk(&w, "models/walk.yaml", settings, 1);
+  open_walk(&w, "models/walk.yaml", settings, 2);
   expect_given_back(&w, 0.35);
   close_walk(&w);
 }
 
-/* so that it is the tolerances, not the pads (measured: .14 J of 2.02, a tenth of the tolerances)
- */
+/* so that it is the tolerances, not the pads (measured: .12 J of 1.36, a 25th of the tolerances) */
 static void pads_of_feet_that_are_held_keep_nothing(void **state) {
   (void)state;
   ONLY_IN_CHECK_LONG();
   static const char *const settings[] = {
-      "ground_reaction.heel_pad=0.008", "ground_reaction.pressure.arc=3e-5",
-      "trajectory.intervals=28", "constraints.contact_tolerance=4e-5",
-      "constraints.orientation_tolerance=2.5e-4"};
+      "ground_reaction.pressure.arc=3e-5", "trajectory.intervals=28",
+      "constraints.contact_tolerance=4e-5", "constraints.orientation_tolerance=2.5e-4"};
   walk w;
-  open_walk(&w, "models/walk.yaml", settings, 5);
+  open_walk(&w, "models/walk.yaml", settings, 4);
   expect_given_back(&w, 0.1);
   close_walk(&w);
 }
@@ -111,11 +110,11 @@ static int contact_values(const ambulo_problem *p, const double *x, double *sort
  */
 static void heels_sink_alike_in_the_mirror(void **state) {
   (void)state;
-  static const char *const left[] = {"ground_reaction.heel_pad=0.008", "gait.first_foot=left"};
-  static const char *const right[] = {"ground_reaction.heel_pad=0.008", "gait.first_foot=right"};
+  static const char *const left[] = {"gait.first_foot=left"};
+  static const char *const right[] = {"gait.first_foot=right"};
   ambulo_problem *p = NULL, *q = NULL;
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", left, 2, NULL, NULL, &p), AMBULO_OK);
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", right, 2, NULL, NULL, &q), AMBULO_OK);
+  assert_int_equal(ambulo_problem_load("models/walk.yaml", left, 1, NULL, NULL, &p), AMBULO_OK);
+  assert_int_equal(ambulo_problem_load("models/walk.yaml", right, 1, NULL, NULL, &q), AMBULO_OK);
   int n = p->coordinates, points = p->variables / n;
   size_t size = (size_t)p->variables;
   double *x = calloc(size, sizeof *x), *y = calloc(size, sizeof *y);
