@@ -44,7 +44,7 @@
   "[-0.03, 0.06], width: 0.04}}\n" CONSTRAINTS("")
 #define SHARED                                                                                     \
   OF_REACTION                                                                                      \
-      "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.3, heel_pad: 0.008, " PRESSURE
+  "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.3, heel_pad: 0.008, " PRESSURE
 /* of a robot: torques carry the pelvis, rows keep the zero-moment point */
 #define ZERO_MOMENT                                                                                \
   "  - {term: torque_absolute, name: pelvis, scale: {default: 0, pelvis_ty: 0.1}}\n" CONSTRAINTS(  \

@@ -76,7 +76,7 @@ options_exist() {
   : >"$work/options"
   while read -r command; do "$out/ambulo" "$command" --help; done <"$work/commands" >"$work/options"
   "$out/ambulo" --help >>"$work/options"
-  grep -ohE -e '"--[a-z-]+"' docs/examples/*.py >>"$work/options"
+  grep -ohE -e '"(--)?[a-z-]+"' docs/examples/*.py | sed -E 's/"(--)?/--/' >>"$work/options"
   for page in README.md docs/*.md; do
     while read -r option; do
       grep -q -e "$option\b" "$work/options" || { echo "$page: no option $option"; lost=1; }

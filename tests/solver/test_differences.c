@@ -147,7 +147,8 @@ static void a_walk_on_heel_pads(void **state) {
   (void)state;
   static const setting c = {
       "models/walk.yaml",
-      {"ground={slope: 3}", "load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}", "time.intervals=48"},
+      {"ground={slope: 3}", "load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}",
+       "time.intervals=48"},
       {"ground_reaction.heel_pad", "ground_reaction.moment_arm", "gait.speed", "gait.step_width",
        "gait.phases.foot_flat.comfortable", "gait.phases.heel_off.comfortable", "subject.mass",
        "load.mass", "ground.slope"}};

@@ -25,9 +25,9 @@ static int ascending(const void *left, const void *right) {
   return (a > b) - (a < b);
 }
 
-/* error over true error, of numbers that count: most above 1, nearly all above a third, in the median
- * below 10. Where an early end leaves joints in a flat valley (subtalar ones of a walk) it may be
- * half of the true one. */
+/* error over true error, of numbers that count: most above 1, nearly all above a third, in the
+ * median below 10. Where an early end leaves joints in a flat valley (subtalar ones of a walk) it
+ * may be half of the true one. */
 static void check(const char *path) {
   enum { MOST = 512 };
   double ratio[MOST];

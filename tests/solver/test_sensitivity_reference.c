@@ -9,9 +9,9 @@
  *
  * SIZE is the sum of the derivatives' sizes. A difference counts against that, and against the
  * rounding of the Lagrangian, the sizes of whose parts add up to what stands behind the problem's
- * name. Rows of friction and flight, slopes under a posture, the moments of contacts and the pressure
- * of arcs have had other laws since, some files another grid: differences alone compare those
- * (test_differences.c).
+ * name. Rows of friction and flight, slopes under a posture, the moments of contacts and the
+ * pressure of arcs have had other laws since, some files another grid: differences alone compare
+ * those (test_differences.c).
  */
 #include "ambulo/tools/load.h"
 #include "ambulo/sensitivity.h"

