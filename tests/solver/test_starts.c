@@ -65,10 +65,12 @@ static void several_are_never_worse_than_one(void **state) {
  * best of all is returned; an optimum needs no second look */
 static void what_leaves_doubts_has_a_second_look(void **state) {
   (void)state;
-  static const char *const settings[] = {"load.mass=240", "constraints.torque_limits=true"};
+  static const char *const settings[] = {"load.mass=240", "constraints.torque_limits=true",
+                                         "constraints.orientation_tolerance=0.004",
+                                         "time.intervals=64", "trajectory.intervals=14"};
   ambulo_problem *problem = NULL;
   assert_int_equal(
-      ambulo_problem_load("models/walk_loaded.yaml", settings, 2, NULL, NULL, &problem), AMBULO_OK);
+      ambulo_problem_load("models/walk_loaded.yaml", settings, 5, NULL, NULL, &problem), AMBULO_OK);
   ambulo_result *result = solve(problem, 1, NULL);
   const ambulo_starts *s = ambulo_result_starts(result);
   assert_int_equal(result->verdict, AMBULO_FEASIBLE);
