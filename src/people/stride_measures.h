@@ -5,8 +5,8 @@
  *
  *     W+_i = integral max(0, P_i) dt,   W-_i = integral min(0, P_i) dt          J
  *
- * Without ground reaction torques of a leg that stands are not those of a person, and there is none.
- * What a walk costs a person is in people/walking_cost.h.
+ * Without ground reaction torques of a leg that stands are not those of a person, and there is
+ * none. What a walk costs a person is in people/walking_cost.h.
  */
 #ifndef AMBULO_PEOPLE_STRIDE_MEASURES_H
 #define AMBULO_PEOPLE_STRIDE_MEASURES_H

@@ -208,7 +208,7 @@ static void the_tolerance_is_as_documented(void **state) {
 static void shipped_bodies_are_symmetric_at_any_size(void **state) {
   (void)state;
   static const char *const names[] = {"lower_body_18", "lower_body_21", "lower_body_23",
-                                      "whole_body_31", "walker_2d", "opensim_2d_gait10",
+                                      "whole_body_31", "walker_2d",     "opensim_2d_gait10",
                                       "yardstick_body"};
   const size_t size = sizeof(ambulo_subject);
   const ambulo_subject subjects[] = {ambulo_subject_default(),

@@ -1,5 +1,5 @@
-/* Bodies with more joints: with arms, neck and toes at rest they are lower_body_21, whose arms, head
- * and toes are fixed; joints turn to where their names say. */
+/* Bodies with more joints: with arms, neck and toes at rest they are lower_body_21, whose arms,
+ * head and toes are fixed; joints turn to where their names say. */
 #include "mechanics/lagrangian.h"
 #include "ambulo/tools/tools.h"
 #include "support/random_model.h"
@@ -92,8 +92,11 @@ static void at_rest_they_are_the_lower_body(void **state) {
   static const struct {
     const char *name;
     double tolerance;
-  } bodies[] = {{"lower_body_23", 2e-5}, {"whole_body_29", 2e-5}, {"whole_body_31", 2e-5},
-                {"whole_body_37", 2e-5}, {"whole_body_45", 1e-2}};
+  } bodies[] = {{"lower_body_23", 2e-5},
+                {"whole_body_29", 2e-5},
+                {"whole_body_31", 2e-5},
+                {"whole_body_37", 2e-5},
+                {"whole_body_45", 1e-2}};
   for (int b = 0; b < 5; b++) {
     for (int s = 0; s < 2; s++) {
       body whole, lower;
@@ -159,8 +162,8 @@ static void joints_turn_as_they_are_called(void **state) {
 /* stature in the upright pose: soles at -0, the vertex one stature above */
 static void they_are_as_tall_as_their_subject(void **state) {
   (void)state;
-  static const char *const names[] = {"lower_body_23", "whole_body_29", "whole_body_31", "whole_body_37",
-                                      "whole_body_45"};
+  static const char *const names[] = {"lower_body_23", "whole_body_29", "whole_body_31",
+                                      "whole_body_37", "whole_body_45"};
   for (int k = 0; k < 5; k++) {
     body b;
     open_body(&b, names[k], "male");
@@ -176,8 +179,8 @@ static void they_are_as_tall_as_their_subject(void **state) {
   }
 }
 
-/* the arc of the forefoot, 4.4 cm for a body of 1.75 m, is the sole of the foot and of the toes: the
- * toes turn about its centre, 11.9 cm ahead of the ankle, and their tip stands on the ground */
+/* the arc of the forefoot, 4.4 cm for a body of 1.75 m, is the sole of the foot and of the toes:
+ * the toes turn about its centre, 11.9 cm ahead of the ankle, and their tip stands on the ground */
 static void toes_turn_about_the_arc_of_the_forefoot(void **state) {
   (void)state;
   static const char *const names[] = {"lower_body_23", "whole_body_31"};
