@@ -98,13 +98,6 @@ static ambulo_status score_all(comparing *c) {
 
 /* ---------------------------------------------------------------- landmarks */
 
-static const ambulo__map_entry *find_entry(const ambulo__map *map, const char *curve) {
-  for (int i = 0; i < map->count; i++) {
-    if (strcmp(map->entries[i].curve, curve) == 0) return &map->entries[i];
-  }
-  return NULL;
-}
-
 static ambulo_status add_landmarks(comparing *c, const ambulo__map *fallback) {
   static const char *const curves[] = {"knee_flexion", "ankle_dorsiflexion", "grf_vertical",
                                        "grf_forward"};
@@ -114,8 +107,8 @@ static ambulo_status add_landmarks(comparing *c, const ambulo__map *fallback) {
     const ambulo__map_entry *entry = NULL;
     int found = 0;
     for (int f = 0; !entry && f < c->people.count; f++)
-      entry = find_entry(&c->people.files[f].map, curves[i]);
-    if (!entry) entry = find_entry(fallback, curves[i]);
+      entry = ambulo__map_find(&c->people.files[f].map, curves[i]);
+    if (!entry) entry = ambulo__map_find(fallback, curves[i]);
     ambulo_status status = sample_fine(c, entry, fine, &found);
     if (status) return status;
     if (!found) continue;

@@ -25,8 +25,8 @@ typedef enum ambulo__curve_unit {
 } ambulo__curve_unit;
 
 /* One line of the map. `result` is a column of motion.csv or a sum of such ("a+b"), with
- * {side} for l or r and {foot} for the foot's name; "grf.{foot}.up", "grf.{foot}.forward" are
- * components along the body's axes, "power.NAME" is tau times qd. */
+ * {side} for l or r and {foot} for the foot's name; "grf.{foot}.up", "grf.{foot}.forward",
+ * "grf.{foot}.right" are components along the body's axes, "power.NAME" is tau times qd. */
 typedef struct ambulo__map_entry {
   char curve[AMBULO__CURVE_NAME], reference[AMBULO__CURVE_NAME], result[192];
   double factor; /* on the left side */
@@ -49,6 +49,8 @@ ambulo_status ambulo__map_default(ambulo__reference_layout layout,
 ambulo_status ambulo__map_read(const char *path, const ambulo_allocator *allocator,
                                ambulo_diagnostics *diagnostics, ambulo__map *map);
 void ambulo__map_free(ambulo__map *map); /* accepts a zero-filled one */
+/* The line that goes by the curve's own name, else the first of that curve; NULL: none. */
+const ambulo__map_entry *ambulo__map_find(const ambulo__map *map, const char *curve);
 
 /* "deg", "N m/kg", "N/kg", "W/kg". */
 const char *ambulo__curve_unit_name(ambulo__curve_unit unit);

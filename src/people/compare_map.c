@@ -4,7 +4,9 @@
  * Signs. Results: hip flexion, hip adduction, knee flexion and dorsiflexion are positive, and so
  * are the torques that cause them. References: extension and plantarflexion moments are
  * positive. Pelvis angles are those of the side that strikes: with x forward, y up, z right, a
- * positive list lowers the right side and a positive rotation brings the right side forward.
+ * positive list lowers the right side and a positive rotation brings the right side forward. Bending
+ * of the trunk is positive to the right, its moment to the side that strikes; the medial force on
+ * the left foot points to the right.
  */
 #include "people/compare.h"
 
@@ -69,22 +71,28 @@ static const ambulo__map_entry wide[] = {
      AMBULO__UNIT_MOMENT},
 };
 
-/* what a table of cycles calls its columns: the names of the curves (compare_cycles.h) */
-static const ambulo__map_entry wide_forces[] = {
+/* curves that no published layout has; a table of cycles names its columns as the curves */
+static const ambulo__map_entry others[] = {
     {"grf_forward", "grf_forward", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE},
     {"grf_vertical", "grf_vertical", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE},
+    {"grf_medial", "grf_medial", "grf.{foot}.right", 1, 1, 0, AMBULO__UNIT_FORCE},
+    {"mtp_extension", "mtp_extension", "q.mtp_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
+    {"lumbar_extension_moment", "lumbar_extension_moment", "tau.lumbar_extension", 1, 0, 0,
+     AMBULO__UNIT_MOMENT},
+    {"lumbar_bending_moment", "lumbar_bending_moment", "tau.lumbar_bending", -1, 1, 0,
+     AMBULO__UNIT_MOMENT},
 };
 enum {
   OWN_COUNT = sizeof quantity / sizeof *quantity,
-  FORCE_COUNT = sizeof wide_forces / sizeof *wide_forces
+  OTHER_COUNT = sizeof others / sizeof *others
 };
 
 static void add_own_names(ambulo__map *map) {
   ambulo__map_entry *to = map->entries + map->count;
   memcpy(to, quantity, sizeof quantity);
   for (int i = 0; i < OWN_COUNT; i++) memcpy(to[i].reference, to[i].curve, sizeof to[i].curve);
-  memcpy(to + OWN_COUNT, wide_forces, sizeof wide_forces);
-  map->count += OWN_COUNT + FORCE_COUNT;
+  memcpy(to + OWN_COUNT, others, sizeof others);
+  map->count += OWN_COUNT + OTHER_COUNT;
 }
 
 static const struct {
@@ -107,7 +115,7 @@ ambulo_status ambulo__map_default(ambulo__reference_layout layout,
                                   const ambulo_allocator *allocator, ambulo__map *map) {
   ambulo__map m = {.allocator = ambulo__allocator_or_default(allocator),
                    .count = (int)builtin[layout].count};
-  size_t room = builtin[layout].count + OWN_COUNT + FORCE_COUNT;
+  size_t room = builtin[layout].count + OWN_COUNT + OTHER_COUNT;
   m.entries = ambulo__alloc(&m.allocator, room, sizeof *m.entries);
   if (!m.entries) return AMBULO_E_MEMORY;
   memcpy(m.entries, builtin[layout].entries, builtin[layout].count * sizeof *m.entries);
@@ -118,6 +126,17 @@ ambulo_status ambulo__map_default(ambulo__reference_layout layout,
 
 void ambulo__map_free(ambulo__map *map) {
   ambulo__free(&map->allocator, map->entries);
+}
+
+const ambulo__map_entry *ambulo__map_find(const ambulo__map *map, const char *curve) {
+  const ambulo__map_entry *first = NULL;
+  for (int i = map->count - 1; i >= 0; i--) {
+    const ambulo__map_entry *entry = &map->entries[i];
+    if (strcmp(entry->curve, curve) != 0) continue;
+    if (strcmp(entry->reference, curve) == 0) return entry;
+    first = entry;
+  }
+  return first;
 }
 
 /* ---------------------------------------------------------------- from a file */
@@ -294,10 +313,13 @@ static ambulo_status take_column(ambulo__cycle *c, const char *name, double fact
   return AMBULO_OK;
 }
 
-/* grf.FOOT.up, grf.FOOT.forward: name ends with `direction` */
+/* grf.FOOT.up, grf.FOOT.forward, grf.FOOT.right: name ends with `direction` */
 static ambulo_status take_component(ambulo__cycle *c, char *name, const char *direction,
                                     double *values, int *found) {
-  const double *axis = strcmp(direction, "up") == 0 ? c->up : c->forward;
+  const double *f = c->forward, *u = c->up;
+  const double right[3] = {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2],
+                           f[0] * u[1] - f[1] * u[0]};
+  const double *axis = direction[0] == 'u' ? u : direction[0] == 'f' ? f : right;
   char *end = name + strlen(name) - strlen(direction);
   for (int i = 0; i < 3; i++) {
     end[0] = "xyz"[i];
@@ -325,9 +347,13 @@ static ambulo_status take_power(ambulo__cycle *c, const char *name, double *scra
   return status;
 }
 
-static int ends_with(const char *text, const char *end) {
-  size_t length = strlen(text), size = strlen(end);
-  return length >= size && strcmp(text + length - size, end) == 0;
+/* of a force along an axis of the body; NULL: another column */
+static const char *direction_of(const char *name) {
+  static const char *const directions[] = {"up", "forward", "right"};
+  const char *dot = strrchr(name, '.');
+  for (int i = 0; strncmp(name, "grf.", 4) == 0 && i < 3; i++)
+    if (strcmp(dot + 1, directions[i]) == 0) return directions[i];
+  return NULL;
 }
 
 ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
@@ -342,11 +368,9 @@ ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
     int has = 0;
     ambulo_status status = AMBULO_OK;
     if (expand(at, length, side, name)) {
-      int force = strncmp(name, "grf.", 4) == 0;
-      if (force && ends_with(name, ".up")) {
-        status = take_component(c, name, "up", values, &has);
-      } else if (force && ends_with(name, ".forward")) {
-        status = take_component(c, name, "forward", values, &has);
+      const char *direction = direction_of(name);
+      if (direction) {
+        status = take_component(c, name, direction, values, &has);
       } else if (strncmp(name, "power.", 6) == 0) {
         status = take_power(c, name, scratch, values, &has);
       } else {

@@ -47,6 +47,49 @@ static void folder(void **state, double limp) {
   gait_summary(*state, "{\"verdict\": \"optimal\", " GAIT_STRIKES ", " GAIT_BODY "}");
 }
 
+/* curves that no shipped table has: a table that names them, of the same waves over the left and
+ * the right cycle; forces and bending to the side of the cycle */
+static void trunk_toe_and_side(void **state) {
+  static const char *const names[] = {"lumbar_bending_moment", "lumbar_extension_moment",
+                                      "grf_medial", "mtp_extension"};
+  static const char *const units[] = {"N m/kg", "N m/kg", "N/kg", "deg"};
+  ambulo_compare_options options = ambulo_compare_options_default();
+  ambulo_comparison *c = NULL;
+  gait_summary(*state, "{\"verdict\": \"optimal\", " GAIT_STRIKES ", " GAIT_BODY "}");
+  FILE *f = fopen(scratch_path(state, "motion.csv"), "w");
+  assert_non_null(f);
+  fprintf(f, "time,tau.lumbar_bending,tau.lumbar_extension,q.mtp_angle_l,q.mtp_angle_r");
+  fprintf(f, ",grf.left.x,grf.left.y,grf.left.z,grf.right.x,grf.right.y,grf.right.z\n");
+  for (int k = 0; k <= 40; k++) {
+    double t = 0.1 + 0.03 * k, turn = 2.0 * GAIT_PI * (t - 0.4) / 1.2, degree = GAIT_PI / 180.0;
+    fprintf(f, "%.12g,%.12g,%.12g,%.12g,%.12g", t, 35.0 * sin(turn), 14.0 * cos(2.0 * turn),
+            20.0 * degree * cos(turn), -20.0 * degree * cos(turn));
+    fprintf(f, ",0,0,%.12g,0,0,%.12g\n", 28.0 * sin(turn), 28.0 * sin(turn));
+  }
+  assert_int_equal(fclose(f), 0);
+  const char *table = scratch_path(state, "table.csv");
+  f = fopen(table, "w");
+  assert_non_null(f);
+  fprintf(f, "percent,%s,%s,%s,%s\n", names[0], names[1], names[2], names[3]);
+  for (int p = 0; p <= 100; p += 5) {
+    double turn = 2.0 * GAIT_PI * 0.01 * p;
+    fprintf(f, "%d,%.12g,%.12g,%.12g,%.12g\n", p, -0.5 * sin(turn), 0.2 * cos(2.0 * turn),
+            0.4 * sin(turn), 20.0 * cos(turn));
+  }
+  assert_int_equal(fclose(f), 0);
+  for (int foot = 0; foot < 3; foot++) {
+    options.foot = foot == 0 ? NULL : foot == 1 ? "left" : "right";
+    assert_int_equal(ambulo_compare(*state, table, &options, NULL, NULL, &c), AMBULO_OK);
+    assert_int_equal(ambulo_comparison_curve_count(c), 4);
+    for (int i = 0; i < 4; i++) {
+      assert_string_equal(curve(c, names[i])->unit, units[i]);
+      assert_true(curve(c, names[i])->rmse < 0.02);
+      assert_close(curve(c, names[i])->r, 1.0, 1e-3);
+    }
+    ambulo_comparison_free(c);
+  }
+}
+
 static void known_scores(void **state) {
   ambulo_compare_options options = ambulo_compare_options_default();
   ambulo_comparison *c = NULL;
@@ -189,6 +232,7 @@ static void published_bands(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(known_scores, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(trunk_toe_and_side, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(feet, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(as_json, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),

@@ -29,6 +29,21 @@ static void built_in_signs(void **state) {
   ambulo__map_free(&map);
 }
 
+/* of a curve with two lines the one by its own name, else the first */
+static void the_line_of_a_curve(void **state) {
+  (void)state;
+  ambulo__map map;
+  assert_int_equal(ambulo__map_default(AMBULO__LAYOUT_WIDE, NULL, &map), AMBULO_OK);
+  const ambulo__map_entry *found = ambulo__map_find(&map, "hip_flexion");
+  assert_string_equal(found->reference, "hip_flexion");
+  assert_int_equal(found->tilted, 1);
+  assert_null(ambulo__map_find(&map, "hip flexion"));
+  for (int i = 0; i < map.count; i++) memcpy(map.entries[i].reference, "x", 2);
+  found = ambulo__map_find(&map, "hip_flexion");
+  assert_int_equal(found - map.entries, 0);
+  ambulo__map_free(&map);
+}
+
 static void from_a_file(void **state) {
   const char *path = scratch_path(state, "map.csv");
   ambulo__map map;
@@ -68,6 +83,7 @@ static void faults(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(built_in_signs),
+      cmocka_unit_test(the_line_of_a_curve),
       cmocka_unit_test_setup_teardown(from_a_file, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(faults, scratch_open, scratch_close)};
   return cmocka_run_group_tests_name("compare/compare_map", tests, NULL, NULL);
