@@ -4,9 +4,9 @@
  * Signs. Results: hip flexion, hip adduction, knee flexion and dorsiflexion are positive, and so
  * are the torques that cause them. References: extension and plantarflexion moments are
  * positive. Pelvis angles are those of the side that strikes: with x forward, y up, z right, a
- * positive list lowers the right side and a positive rotation brings the right side forward. Bending
- * of the trunk is positive to the right, its moment to the side that strikes; the medial force on
- * the left foot points to the right.
+ * positive list lowers the right side and a positive rotation brings the right side forward.
+ * Bending of the trunk is positive to the right, its moment to the side that strikes; the medial
+ * force on the left foot points to the right.
  */
 #include "people/compare.h"
 

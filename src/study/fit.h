@@ -14,12 +14,14 @@
  *
  *     D = r'r = sum_cj weight_c weight_j z_cj / sum_cj weight_c weight_j
  *
- * z_cj being 1 where a curve is off by one standard deviation. What is minimized is the cost
+ * z_cj being 1 where a curve is off by one standard deviation. Guards, which bound a number of a
+ * curve without any reference, add to the sum above alone, so that one that holds changes nothing;
+ * where nothing but guards counts, they are in both. What is minimized is the cost
  * D + ridge |u|^2 / parameters.
  *
- * Files in order: fit_file.c, fit_conditions.c (references and residuals), fit_values.c (u to
- * numbers of the problem), fit_solves.c (trials as cases of a batch), fit_search.c, fit_run.c,
- * fit_report.c.
+ * Files in order: fit_file.c, fit_conditions.c (references as targets), fit_residual.c,
+ * fit_values.c (u to numbers of the problem), fit_solves.c (trials as cases of a batch),
+ * fit_search.c, fit_run.c, fit_report.c, fit_table.c.
  */
 #ifndef AMBULO_STUDY_FIT_H
 #define AMBULO_STUDY_FIT_H
@@ -36,7 +38,7 @@
 enum {
   AMBULO__FIT_PARAMETERS = 64,
   AMBULO__FIT_KEYS = 64, /* of one parameter */
-  AMBULO__FIT_CONDITIONS = 32,
+  AMBULO__FIT_CONDITIONS = 64,
   AMBULO__FIT_CURVES = 32,
   AMBULO__FIT_LABEL = 96
 };
@@ -62,27 +64,34 @@ typedef struct ambulo__fit_parameter {
 /* What of a curve is compared. */
 typedef enum ambulo__fit_of {
   AMBULO__FIT_CURVE,
-  AMBULO__FIT_RANGE, /* largest less smallest */
-  AMBULO__FIT_PEAK,  /* largest */
-  AMBULO__FIT_LOWEST /* smallest */
+  AMBULO__FIT_RANGE,  /* largest less smallest */
+  AMBULO__FIT_PEAK,   /* largest */
+  AMBULO__FIT_LOWEST, /* smallest */
+  AMBULO__FIT_LARGEST /* largest magnitude */
 } ambulo__fit_of;
 
-/* A curve, or a number of one, that the distance counts. */
+/* A curve, or a number of one, that the distance counts; as a guard, a number with bounds. */
 typedef struct ambulo__fit_curve {
   const char *name, *curve; /* of itself; of the column map */
   ambulo__fit_of of;
-  double weight, sd; /* sd 0: that of the reference */
-  double from, to;   /* percent of the cycle */
-  int centred;       /* 1: less their means */
+  double weight, sd;              /* sd 0: that of the reference */
+  double correlation, range_cost; /* of a whole curve: weights of 1 - r and of ln k */
+  double from, to;                /* percent of the cycle */
+  int centred;                    /* 1: less their means */
+  int is_guard;
+  double bound[2]; /* of a guard, in the curve's unit: at least, at most; infinite: none */
+  const ambulo__map_entry *entry; /* of a guard: in fit->map */
+  double *percent;                /* [points] of a guard: every half percent or closer */
+  int points;
   const ambulo__yaml_node *node;
 } ambulo__fit_curve;
 
-/* A curve of a condition: its reference within `from` and `to`. */
+/* A curve of a condition: its reference within `from` and `to`, or a guard. */
 typedef struct ambulo__fit_target {
   int curve; /* of the distance */
   const ambulo__map_entry *entry;
   int points;
-  const double *percent, *mean; /* [points] */
+  const double *percent, *mean; /* [points]; mean NULL: a guard */
   double sd;                    /* in the curve's unit: of the file, root mean square; or given */
   int first, count;             /* its block within the condition's residuals */
 } ambulo__fit_target;
@@ -91,7 +100,7 @@ typedef struct ambulo__fit_condition {
   const char *name;
   char **set; /* [sets]: "path=value", as --set takes them */
   int sets;
-  char *reference; /* path */
+  char *reference; /* path; NULL: all its curves are guards */
   int held_out;    /* 1: does not count; its distance is reported apart */
   double weight;
   int after;                  /* the condition whose solution starts its first solve; -1: zero */
@@ -114,9 +123,11 @@ struct ambulo_fit {
   int conditions;
   ambulo__fit_curve *curve;
   int curves;
-  int residuals; /* of all fitted conditions */
-  double correlation, range_cost, cap;
+  int residuals;                       /* of all fitted conditions */
+  double weights;                      /* that D is divided by */
+  double correlation, range_cost, cap; /* the first two of curves without their own */
   ambulo_compare_options compare;
+  ambulo__map map; /* of guards */
   int iterations;
   double ridge, tolerance;
   double case_seconds;
@@ -163,12 +174,18 @@ typedef struct ambulo__fit_score {
   double rmse;             /* of y - m, not centred; of a number: |difference| */
   double r;                /* NaN: of a number, or y is constant */
   double ratio;            /* k */
-  double value, reference; /* of a number */
+  double value, reference; /* of a number; a guard has no reference, rmse and ratio */
 } ambulo__fit_score;
 
-/* fit_conditions.c: residual [count of the target] of y [points]; y NULL: the solve failed. */
+/* fit_residual.c: residual [count of the target] of y [points]; y NULL: the solve failed. */
 void ambulo__fit_residual(const ambulo_fit *fit, const ambulo__fit_target *target, const double *y,
                           double *residual, ambulo__fit_score *score);
+/* The residual of a guard with a number of `value`, and its slope per unit of that. */
+double ambulo__fit_guard(const ambulo_fit *fit, const ambulo__fit_target *target, double value,
+                         double *slope);
+/* What the curves of a condition weigh together: those with a reference, or its guards. */
+double ambulo__fit_weight(const ambulo_fit *fit, const ambulo__fit_condition *condition,
+                          int of_guards);
 
 /* The problem with its parameters somewhere, solved in every condition. */
 typedef struct ambulo__fit_trial {
@@ -209,7 +226,6 @@ typedef struct ambulo__fit_runner {
   ambulo_sweep *sweep;
   int points;             /* most of a target */
   double *values, *block; /* [points], [most residuals of a condition] */
-  double weights;         /* sum over fitted conditions and their targets */
   double begin, solving;  /* s; of rounds that computed something */
   int before;             /* cases of earlier rounds */
   int computed;           /* solves of this run */
@@ -295,8 +311,14 @@ enum { AMBULO__FIT_FIRST, AMBULO__FIT_BEST, AMBULO__FIT_APART, AMBULO__FIT_COLD 
 
 /* fit_report.c: about how many solves a fit takes, when none is in the folder yet. */
 int ambulo__fit_expected(const ambulo_fit *fit);
-/* Appends fit.json, and the table for people. Errors: E_MEMORY. */
+/* Appends fit.json. Errors: E_MEMORY. */
 ambulo_status ambulo__fit_json(const ambulo__fit_outcome *outcome, ambulo__text_buffer *text);
+/* The trial that scores a condition after the fit: that of the held-out ones is another. */
+const ambulo__fit_trial *ambulo__fit_after(const ambulo__fit_outcome *outcome, int condition);
+/* -1, 1: parameter i of the best trial is at its lower, its upper bound; 0: between. */
+int ambulo__fit_bound(const ambulo__fit_outcome *outcome, int i);
+const char *ambulo__fit_ending_name(ambulo_fit_ending ending);
+/* fit_table.c: appends the table for people. */
 void ambulo__fit_table(const ambulo__fit_outcome *outcome, ambulo__text_buffer *text);
 
 #endif

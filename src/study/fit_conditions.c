@@ -1,20 +1,5 @@
-/* study/fit_conditions.c - `conditions:` of a fit file, their references as targets, and how far a
- * predicted curve is from its target, as a block of residuals (fit.h).
- *
- * With y_i the prediction and m_i the reference at the target's n points, s its deviation, and
- * e_i = y_i - m_i (centred: less its mean), a whole curve has n + 2 residuals
- *
- *     e_i / (s sqrt n)                                   i < n
- *     correlation (1 - r)                                r: Pearson's, 0 where y is constant
- *     range ln max(k, 0.1)                               k: range of y over that of m
- *
- * and a number of a curve (its range, peak or lowest value) one, (number of y - that of m) / s.
- * Their sum of squares z is 1 where the curve is off by one deviation. A block whose z is above the
- * cap is shortened, so that one curve does not outweigh all others and no gradient is lost:
- *
- *     z -> cap + ln(z / cap)
- *
- * A solve that failed counts 2 cap for each of its targets, more than any curve in practice. */
+/* study/fit_conditions.c - `conditions:` of a fit file, and their references and the guards as
+ * targets (fit.h). */
 #include "formats/paths.h"
 #include "people/compare.h"
 #include "study/fit.h"
@@ -23,9 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LIST = 400, LEAST_POINTS = 3 };
-
-static const double least_ratio = 0.1;
+enum { LIST = 400, LEAST_POINTS = 3, MOST_NAMES = 128 };
 
 int ambulo__fit_count(const ambulo__yaml_node *node, int most, const char *what) {
   int count = ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_pairs(node)
@@ -93,7 +76,7 @@ static ambulo_status read_condition(ambulo_fit *fit, int index, const ambulo__ya
   c->after = -1;
   c->name = ambulo__yaml_name(name);
   c->set_node = ambulo__yaml_get(node, "set");
-  c->reference_node = ambulo__yaml_require(node, "reference");
+  c->reference_node = ambulo__yaml_get(node, "reference");
   c->curves_node = ambulo__yaml_get(node, "curves");
   c->held_out = ambulo__yaml_boolean(ambulo__yaml_get(node, "held_out"), 0);
   c->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 1e-6, 1e6, 1.0);
@@ -101,10 +84,11 @@ static ambulo_status read_condition(ambulo_fit *fit, int index, const ambulo__ya
     (void)ambulo__yaml_error(name, AMBULO_E_SCHEMA, NULL,
                              "two conditions are named '%s'; expected different names", c->name);
   read_after(fit, index, ambulo__yaml_get(node, "after"));
-  const char *file = ambulo__yaml_file_name(c->reference_node);
-  ambulo_status status =
-      ambulo__named_file(&fit->allocator, fit->path, file, ambulo__yaml_place(c->reference_node),
-                         fit->diagnostics, &c->reference);
+  ambulo_status status = AMBULO_OK;
+  if (c->reference_node)
+    status =
+        ambulo__named_file(&fit->allocator, fit->path, ambulo__yaml_file_name(c->reference_node),
+                           ambulo__yaml_place(c->reference_node), fit->diagnostics, &c->reference);
   if (!status) status = read_set(fit, c);
   if (!status) ambulo__yaml_close(node);
   return status;
@@ -181,6 +165,78 @@ static void lacks_curve(const ambulo__fit_condition *c, const ambulo__fit_curve 
                            c->reference, c->name, curve->curve);
 }
 
+/* of a curve that is no guard, in a condition without a reference: at its name in the list
+ * `curves`, where there is one */
+static void needs_reference(const ambulo__fit_condition *c, const ambulo__fit_curve *curve) {
+  const ambulo__yaml_node *place = c->node;
+  for (int i = 0; c->curves_node && i < ambulo__yaml_items(c->curves_node); i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(c->curves_node, i);
+    if (strcmp(ambulo__yaml_text(item), curve->name) == 0) place = item;
+  }
+  (void)ambulo__yaml_error(place, AMBULO_E_SCHEMA,
+                           "a list 'curves' in the condition names the guards that it has",
+                           "condition '%s' has no reference, which its curve '%s' needs; expected "
+                           "'reference', or no curves but guards (at_least, at_most)",
+                           c->name, curve->name);
+}
+
+/* a reference that nothing is compared with */
+static void expect_compared(const ambulo_fit *fit, const ambulo__fit_condition *c) {
+  for (int k = 0; k < c->targets; k++)
+    if (!fit->curve[c->target[k].curve].is_guard) return;
+  if (!c->reference || c->targets == 0) return;
+  (void)ambulo__yaml_error(c->reference_node, AMBULO_E_SCHEMA, NULL,
+                           "all curves of condition '%s' are guards, which no reference bounds; "
+                           "expected it without 'reference'",
+                           c->name);
+}
+
+/* ---------------------------------------------------------------------- guards */
+
+static void unknown_curve(const ambulo_fit *fit, const ambulo__fit_curve *curve) {
+  char hint[LIST];
+  const char *names[MOST_NAMES];
+  const ambulo__yaml_node *name = ambulo__yaml_get(curve->node, "curve");
+  int count = fit->map.count < MOST_NAMES ? fit->map.count : MOST_NAMES;
+  for (int i = 0; i < count; i++) names[i] = fit->map.entries[i].curve;
+  const char *near = ambulo__nearest(curve->curve, names, (size_t)count);
+  (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
+  (void)ambulo__yaml_error(name ? name : curve->node, AMBULO_E_SCHEMA,
+                           near ? hint : "docs/compare.md lists the column map",
+                           "the guard '%s' is of no curve of the column map (got '%s'); expected "
+                           "one, such as knee_flexion",
+                           curve->name, curve->curve);
+}
+
+/* the percents of a guard: half a percent apart or less, both ends among them */
+static ambulo_status fill_percents(const ambulo_fit *fit, ambulo__fit_curve *c) {
+  int steps = (int)ceil(2.0 * (c->to - c->from) - 1e-9);
+  c->points = steps + 1;
+  c->percent = ambulo__alloc(&fit->allocator, (size_t)c->points, sizeof *c->percent);
+  if (!c->percent) return AMBULO_E_MEMORY;
+  for (int i = 0; i <= steps; i++) c->percent[i] = c->from + (c->to - c->from) * i / steps;
+  return AMBULO_OK;
+}
+
+static ambulo_status read_guards(ambulo_fit *fit) {
+  ambulo_status status = AMBULO_OK;
+  for (int k = 0; k < fit->curves && !status; k++) {
+    ambulo__fit_curve *curve = &fit->curve[k];
+    if (!curve->is_guard) continue;
+    if (!fit->map.entries && fit->compare.map)
+      status = ambulo__map_read(fit->compare.map, &fit->allocator, fit->diagnostics, &fit->map);
+    else if (!fit->map.entries)
+      status = ambulo__map_default(AMBULO__LAYOUT_WIDE, &fit->allocator, &fit->map);
+    if (status) return status;
+    curve->entry = ambulo__map_find(&fit->map, curve->curve);
+    if (!curve->entry) unknown_curve(fit, curve);
+    status = fill_percents(fit, curve);
+  }
+  return status;
+}
+
+/* --------------------------------------------------------------------- targets */
+
 /* points of the reference from `from` to `to`; their deviation, root mean square */
 static void cut_out(const ambulo__fit_curve *curve, const ambulo__reference_curve *r,
                     ambulo__fit_target *t) {
@@ -213,26 +269,42 @@ static void check_target(const ambulo__fit_condition *c, const ambulo__fit_curve
                              c->name, curve->curve);
 }
 
+/* the target of a curve, added to those of the condition */
+static void add_target(const ambulo_fit *fit, ambulo__fit_condition *c, int k) {
+  const ambulo__fit_curve *curve = &fit->curve[k];
+  const ambulo__reference_curve *r = NULL;
+  if (!curve->is_guard && !c->reference) {
+    needs_reference(c, curve);
+    return;
+  }
+  if (!curve->is_guard) r = find_curve(c, curve->curve);
+  if (!curve->is_guard && !r) {
+    lacks_curve(c, curve);
+    return;
+  }
+  ambulo__fit_target *t = &c->target[c->targets++];
+  t->curve = k;
+  if (r) {
+    cut_out(curve, r, t);
+    check_target(c, curve, t);
+  } else {
+    t->entry = curve->entry;
+    t->points = curve->points;
+    t->percent = curve->percent;
+    t->sd = curve->sd;
+  }
+  t->first = c->residuals;
+  t->count = curve->of == AMBULO__FIT_CURVE ? t->points + 2 : 1;
+  c->residuals += t->count;
+}
+
 static ambulo_status make_targets(ambulo_fit *fit, ambulo__fit_condition *c) {
   c->target = ambulo__alloc(&fit->allocator, (size_t)fit->curves, sizeof *c->target);
   if (!c->target) return AMBULO_E_MEMORY;
   check_names(fit, c);
-  for (int k = 0; k < fit->curves; k++) {
-    const ambulo__fit_curve *curve = &fit->curve[k];
-    if (!is_wanted(c, curve->name)) continue;
-    const ambulo__reference_curve *r = find_curve(c, curve->curve);
-    if (!r) {
-      lacks_curve(c, curve);
-      continue;
-    }
-    ambulo__fit_target *t = &c->target[c->targets++];
-    t->curve = k;
-    cut_out(curve, r, t);
-    check_target(c, curve, t);
-    t->first = c->residuals;
-    t->count = curve->of == AMBULO__FIT_CURVE ? t->points + 2 : 1;
-    c->residuals += t->count;
-  }
+  for (int k = 0; k < fit->curves; k++)
+    if (is_wanted(c, fit->curve[k].name)) add_target(fit, c, k);
+  expect_compared(fit, c);
   if (c->held_out) return AMBULO_OK;
   c->first = fit->residuals;
   fit->residuals += c->residuals;
@@ -250,82 +322,29 @@ ambulo_status ambulo__fit_read_text(ambulo_fit *fit, ambulo_diagnostics *diagnos
   return status;
 }
 
+/* of the fitted conditions, and of their curves or their guards */
+static double sum_of_weights(const ambulo_fit *fit, int of_guards) {
+  double sum = 0.0;
+  for (int c = 0; c < fit->conditions; c++)
+    if (!fit->condition[c].held_out)
+      sum += fit->condition[c].weight * ambulo__fit_weight(fit, &fit->condition[c], of_guards);
+  return sum;
+}
+
 ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
-  for (int i = 0; i < fit->conditions; i++) {
+  ambulo_status status = read_guards(fit);
+  for (int i = 0; i < fit->conditions && !status; i++) {
     ambulo__fit_condition *c = &fit->condition[i];
-    ambulo_status status = ambulo__people_read(c->reference, fit->compare.map, &fit->allocator,
-                                               fit->diagnostics, &c->people);
+    if (c->reference)
+      status = ambulo__people_read(c->reference, fit->compare.map, &fit->allocator,
+                                   fit->diagnostics, &c->people);
     if (status == AMBULO_E_MEMORY) return status;
     if (status)
       return ambulo__yaml_error(c->reference_node, status, NULL,
                                 "the reference '%s' could not be read", c->reference);
     status = make_targets(fit, c);
-    if (status) return status;
   }
-  return AMBULO_OK;
-}
-
-/* ------------------------------------------------------------------ residuals */
-
-static double extreme(const double *y, int n, double sign) {
-  double most = sign * y[0];
-  for (int i = 1; i < n; i++) most = fmax(most, sign * y[i]);
-  return sign * most;
-}
-
-static double range_of(const double *y, int n) {
-  return extreme(y, n, 1.0) - extreme(y, n, -1.0);
-}
-
-static double number_of(ambulo__fit_of of, const double *y, int n) {
-  if (of == AMBULO__FIT_RANGE) return range_of(y, n);
-  return extreme(y, n, of == AMBULO__FIT_PEAK ? 1.0 : -1.0);
-}
-
-/* residual [n + 2], before the cap */
-static void fill_curve(const ambulo_fit *fit, const ambulo__fit_target *t, const double *y,
-                       double *residual, const ambulo__fit_score *score) {
-  int n = t->points;
-  double mean = 0.0, scale = 1.0 / (t->sd * sqrt((double)n));
-  for (int i = 0; i < n; i++) mean += (y[i] - t->mean[i]) / (double)n;
-  if (!fit->curve[t->curve].centred) mean = 0.0;
-  for (int i = 0; i < n; i++) residual[i] = scale * (y[i] - t->mean[i] - mean);
-  double r = isnan(score->r) ? 0.0 : score->r;
-  residual[n] = fit->correlation * (1.0 - r);
-  residual[n + 1] = fit->range_cost * log(fmax(score->ratio, least_ratio));
-}
-
-static void shorten(double cap, double *residual, int count, ambulo__fit_score *score) {
-  double z = 0.0;
-  for (int i = 0; i < count; i++) z += residual[i] * residual[i];
-  score->z = z > cap ? cap + log(z / cap) : z;
-  if (!(z > cap)) return;
-  double factor = sqrt(score->z / z);
-  for (int i = 0; i < count; i++) residual[i] *= factor;
-}
-
-void ambulo__fit_residual(const ambulo_fit *fit, const ambulo__fit_target *t, const double *y,
-                          double *residual, ambulo__fit_score *score) {
-  ambulo__fit_of of = fit->curve[t->curve].of;
-  if (!y) {
-    for (int i = 0; i < t->count; i++) residual[i] = sqrt(2.0 * fit->cap / (double)t->count);
-    *score = (ambulo__fit_score){2.0 * fit->cap, (double)NAN, (double)NAN,
-                                 (double)NAN,    (double)NAN, (double)NAN};
-    return;
-  }
-  double theirs = range_of(t->mean, t->points), ours = range_of(y, t->points), squares = 0.0;
-  *score = (ambulo__fit_score){.r = (double)NAN, .value = (double)NAN, .reference = (double)NAN};
-  score->ratio = theirs > 0.0 ? ours / theirs : 1.0;
-  if (of == AMBULO__FIT_CURVE) {
-    for (int i = 0; i < t->points; i++) squares += (y[i] - t->mean[i]) * (y[i] - t->mean[i]);
-    score->rmse = sqrt(squares / (double)t->points);
-    score->r = ambulo__correlation(y, t->mean, t->points);
-    fill_curve(fit, t, y, residual, score);
-  } else {
-    score->value = number_of(of, y, t->points);
-    score->reference = number_of(of, t->mean, t->points);
-    score->rmse = fabs(score->value - score->reference);
-    residual[0] = (score->value - score->reference) / t->sd;
-  }
-  shorten(fit->cap, residual, t->count, score);
+  fit->weights = sum_of_weights(fit, 0);
+  if (!(fit->weights > 0.0)) fit->weights = sum_of_weights(fit, 1);
+  return status;
 }

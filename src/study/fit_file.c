@@ -115,30 +115,72 @@ static void read_between(ambulo__fit_curve *c, const ambulo__yaml_node *node) {
                              between[0], between[1]);
 }
 
+static const char *const of_names[] = {"curve", "range", "peak", "lowest", "largest"};
+
+/* what only whole curves have */
+static void expect_whole(const ambulo__fit_curve *c, const ambulo__yaml_node *node,
+                         const char *key) {
+  const ambulo__yaml_node *value = ambulo__yaml_get(node, key);
+  if (!value || c->of == AMBULO__FIT_CURVE) return;
+  (void)ambulo__yaml_error(value, AMBULO_E_SCHEMA, NULL,
+                           "'%s' is of whole curves; expected it without 'of: %s'", key,
+                           of_names[c->of]);
+}
+
+/* at_least, at_most: one of them makes a number of a curve a guard */
+static void read_bounds(ambulo__fit_curve *c, const ambulo__yaml_node *node) {
+  static const char *const keys[] = {"at_least", "at_most"};
+  for (int side = 0; side < 2; side++) {
+    const ambulo__yaml_node *bound = ambulo__yaml_get(node, keys[side]);
+    if (!bound) continue;
+    c->bound[side] = ambulo__yaml_number_in(bound, -1e9, 1e9, 0.0);
+    c->is_guard = 1;
+    if (c->of == AMBULO__FIT_CURVE)
+      (void)ambulo__yaml_error(bound, AMBULO_E_SCHEMA, NULL,
+                               "'%s' bounds a number of a curve; expected 'of: peak', 'lowest', "
+                               "'largest' or 'range' with it",
+                               keys[side]);
+    if (side && c->bound[0] > c->bound[1])
+      (void)ambulo__yaml_error(bound, AMBULO_E_SCHEMA, NULL,
+                               "at_least %g and at_most %g; expected the first not above the other",
+                               c->bound[0], c->bound[1]);
+  }
+  if (c->is_guard) (void)ambulo__yaml_require(node, "sd");
+}
+
 /* a weight alone, or a mapping */
-static void read_curve(ambulo__fit_curve *c, const char *name, const ambulo__yaml_node *node) {
-  static const char *const kinds[] = {"curve", "range", "peak", "lowest"};
-  *c = (ambulo__fit_curve){name, name, AMBULO__FIT_CURVE, 1.0, 0.0, 0.0, 100.0, 0, node};
+static void read_curve(const ambulo_fit *fit, ambulo__fit_curve *c, const char *name,
+                       const ambulo__yaml_node *node) {
+  *c = (ambulo__fit_curve){.name = name,
+                           .curve = name,
+                           .weight = 1.0,
+                           .correlation = fit->correlation,
+                           .range_cost = fit->range_cost,
+                           .to = 100.0,
+                           .bound = {-(double)INFINITY, (double)INFINITY},
+                           .node = node};
   if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     c->weight = ambulo__yaml_number_in(node, 0.0, 1e6, 1.0);
     return;
   }
   const ambulo__yaml_node *curve = ambulo__yaml_get(node, "curve");
-  const ambulo__yaml_node *centred = ambulo__yaml_get(node, "centred");
   const ambulo__yaml_node *sd = ambulo__yaml_get(node, "sd");
   if (curve) c->curve = ambulo__yaml_text(curve);
-  c->of = (ambulo__fit_of)ambulo__yaml_choice(ambulo__yaml_get(node, "of"), kinds, 4, 0);
+  c->of = (ambulo__fit_of)ambulo__yaml_choice(ambulo__yaml_get(node, "of"), of_names, 5, 0);
   c->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e6, 1.0);
-  c->centred = ambulo__yaml_boolean(centred, 0);
+  c->centred = ambulo__yaml_boolean(ambulo__yaml_get(node, "centred"), 0);
+  c->correlation =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "correlation"), 0.0, 1e6, c->correlation);
+  c->range_cost = ambulo__yaml_number_in(ambulo__yaml_get(node, "range"), 0.0, 1e6, c->range_cost);
   c->sd = ambulo__yaml_number_in(sd, 0.0, 1e9, 0.0);
   if (sd && !(c->sd > 0.0))
     (void)ambulo__yaml_error(sd, AMBULO_E_SCHEMA, NULL,
                              "a deviation of %g; expected one above 0, in the unit of the curve",
                              c->sd);
-  if (c->centred && c->of != AMBULO__FIT_CURVE)
-    (void)ambulo__yaml_error(centred, AMBULO_E_SCHEMA, NULL,
-                             "'centred' is of whole curves; expected it without 'of: %s'",
-                             kinds[c->of]);
+  if (c->centred) expect_whole(c, node, "centred");
+  expect_whole(c, node, "correlation");
+  expect_whole(c, node, "range");
+  read_bounds(c, node);
   read_between(c, ambulo__yaml_get(node, "between"));
   ambulo__yaml_close(node);
 }
@@ -151,7 +193,7 @@ static ambulo_status read_curves(ambulo_fit *fit, const ambulo__yaml_node *curve
   for (int i = 0; i < count; i++) {
     const char *name = ambulo__yaml_key(curves, i);
     ambulo__yaml_expect(curves, name);
-    read_curve(&fit->curve[i], name, ambulo__yaml_value(curves, i));
+    read_curve(fit, &fit->curve[i], name, ambulo__yaml_value(curves, i));
     sum += fit->curve[i].weight;
   }
   fit->curves = count;
@@ -332,6 +374,8 @@ void ambulo_fit_free(ambulo_fit *f) {
     ambulo__free(&a, c->target);
     ambulo__people_free(&c->people);
   }
+  for (int i = 0; i < f->curves; i++) ambulo__free(&a, f->curve[i].percent);
+  ambulo__map_free(&f->map);
   ambulo__free(&a, f->parameter);
   ambulo__free(&a, f->condition);
   ambulo__free(&a, f->curve);

@@ -1,6 +1,6 @@
-/* study/fit_report.c - what a fit will do, and what it found: in words, as fit.json (schema:
- * docs/guide-fit.md), as a table for people (fit.h). Nothing in fit.json depends on the machine or
- * on how often the fit was stopped. */
+/* study/fit_report.c - what a fit will do, in words, and what it found, as fit.json (schema:
+ * docs/guide-fit.md; fit.h). Nothing in fit.json depends on the machine or on how often the fit was
+ * stopped. */
 #include "ambulo/tools/report.h"
 #include "base/numtext.h"
 #include "formats/json_text.h"
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CELL = 40, CANDIDATES = 5 /* of an iteration: four dampings, and one from zero */ };
+enum { CANDIDATES = 5 /* of an iteration: four dampings, and one from zero */ };
 
 /* ---------------------------------------------------------------- before the fit */
 
@@ -42,14 +42,21 @@ static void describe_parameter(const ambulo_fit *fit, int i, ambulo__text_buffer
 static void describe_condition(const ambulo_fit *fit, int i, ambulo__text_buffer *text) {
   const ambulo__fit_condition *c = &fit->condition[i];
   ambulo__text_append_format(text, "condition    %s%s, %s", c->name,
-                             c->held_out ? ", held out" : "", c->reference);
+                             c->held_out ? ", held out" : "",
+                             c->reference ? c->reference : "without reference");
   for (int k = 0; k < c->sets; k++) ambulo__text_append_format(text, ", %s", c->set[k]);
   ambulo__text_append_char(text, '\n');
   for (int k = 0; k < c->targets; k++) {
     const ambulo__fit_target *t = &c->target[k];
-    ambulo__text_append_format(text, "             %s: %d points, deviation ",
-                               fit->curve[t->curve].name, t->points);
-    ambulo__text_append_format(text, "%s %s\n", ambulo__number_text(t->sd).text,
+    const ambulo__fit_curve *curve = &fit->curve[t->curve];
+    ambulo__text_append_format(text, "             %s: ", curve->name);
+    if (!curve->is_guard) ambulo__text_append_format(text, "%d points", t->points);
+    if (isfinite(curve->bound[0]))
+      ambulo__text_append_format(text, "at least %s", ambulo__number_text(curve->bound[0]).text);
+    if (isfinite(curve->bound[1]))
+      ambulo__text_append_format(text, "%sat most %s", isfinite(curve->bound[0]) ? ", " : "",
+                                 ambulo__number_text(curve->bound[1]).text);
+    ambulo__text_append_format(text, ", deviation %s %s\n", ambulo__number_text(t->sd).text,
                                ambulo__curve_unit_name(t->entry->unit));
   }
 }
@@ -75,8 +82,7 @@ ambulo_status ambulo_fit_describe(const ambulo_fit *fit, const ambulo_allocator 
 
 /* ---------------------------------------------------------------- what was found */
 
-/* the trial that scores a condition after the fit: that of the held-out ones is another */
-static const ambulo__fit_trial *after_of(const ambulo__fit_outcome *o, int condition) {
+const ambulo__fit_trial *ambulo__fit_after(const ambulo__fit_outcome *o, int condition) {
   return &o->trial[o->fit->condition[condition].held_out ? AMBULO__FIT_APART : AMBULO__FIT_BEST];
 }
 
@@ -85,7 +91,7 @@ static double held_out_distance(const ambulo__fit_outcome *o, int after) {
   double sum = 0.0, weights = 0.0;
   for (int c = 0; c < o->fit->conditions; c++) {
     const ambulo__fit_condition *condition = &o->fit->condition[c];
-    const ambulo__fit_trial *t = after ? after_of(o, c) : &o->trial[AMBULO__FIT_FIRST];
+    const ambulo__fit_trial *t = after ? ambulo__fit_after(o, c) : &o->trial[AMBULO__FIT_FIRST];
     if (!condition->held_out) continue;
     sum += condition->weight * t->apart[c];
     weights += condition->weight;
@@ -93,15 +99,14 @@ static double held_out_distance(const ambulo__fit_outcome *o, int after) {
   return weights > 0.0 ? sum / weights : (double)NAN;
 }
 
-/* -1, 1: parameter i of the best trial is at its lower, its upper bound; 0: between */
-static int bound_of(const ambulo__fit_outcome *o, int i) {
+int ambulo__fit_bound(const ambulo__fit_outcome *o, int i) {
   const ambulo__fit_parameter *p = &o->fit->parameter[i];
   double u = o->trial[AMBULO__FIT_BEST].u[i], slack = 1e-6 * (p->upper - p->lower);
   if (u <= p->lower + slack) return -1;
   return u >= p->upper - slack;
 }
 
-static const char *ending_name(ambulo_fit_ending ending) {
+const char *ambulo__fit_ending_name(ambulo_fit_ending ending) {
   static const char *const names[] = {[AMBULO_FIT_NOT_RUN] = "not_run",
                                       [AMBULO_FIT_CONVERGED] = "converged",
                                       [AMBULO_FIT_ITERATIONS] = "iterations",
@@ -120,7 +125,7 @@ static void write_parameter(const ambulo__fit_outcome *o, int i, ambulo__json *j
   ambulo__json_text(json, "scale", p->scale == AMBULO__FIT_LOG ? "log" : "linear");
   ambulo__json_number(json, "change", ambulo__fit_change(p, u));
   ambulo__json_number(json, "steps", u);
-  ambulo__json_text(json, "at_bound", bounds[bound_of(o, i) + 1]);
+  ambulo__json_text(json, "at_bound", bounds[ambulo__fit_bound(o, i) + 1]);
   ambulo__json_number(json, "sensitivity", o->sensitivity[i]);
   ambulo__json_open(json, "keys", '{');
   for (int k = 0; k < p->keys; k++) {
@@ -134,36 +139,38 @@ static void write_parameter(const ambulo__fit_outcome *o, int i, ambulo__json *j
 }
 
 static void write_score(ambulo__json *json, const char *key, const ambulo__fit_score *s,
-                        int is_curve) {
+                        const ambulo__fit_curve *curve) {
   ambulo__json_open(json, key, '{');
   ambulo__json_number(json, "z", s->z);
-  if (is_curve) {
+  if (curve->of == AMBULO__FIT_CURVE) {
     ambulo__json_number(json, "rmse", s->rmse);
     ambulo__json_number(json, "r", s->r);
   } else {
     ambulo__json_number(json, "value", s->value);
-    ambulo__json_number(json, "reference", s->reference);
   }
-  ambulo__json_number(json, "range_ratio", s->ratio);
+  if (curve->of != AMBULO__FIT_CURVE && !curve->is_guard)
+    ambulo__json_number(json, "reference", s->reference);
+  if (!curve->is_guard) ambulo__json_number(json, "range_ratio", s->ratio);
   ambulo__json_close(json, '}');
 }
 
 static void write_curves(const ambulo__fit_outcome *o, int index, ambulo__json *json) {
   const ambulo_fit *fit = o->fit;
   const ambulo__fit_condition *c = &fit->condition[index];
-  const ambulo__fit_trial *after = after_of(o, index);
+  const ambulo__fit_trial *after = ambulo__fit_after(o, index);
   ambulo__json_open(json, "curves", '{');
   for (int k = 0; k < c->targets; k++) {
     const ambulo__fit_target *t = &c->target[k];
     const ambulo__fit_curve *curve = &fit->curve[t->curve];
-    int is_curve = curve->of == AMBULO__FIT_CURVE;
     ambulo__json_open(json, curve->name, '{');
     ambulo__json_text(json, "unit", ambulo__curve_unit_name(t->entry->unit));
     ambulo__json_number(json, "weight", curve->weight);
     ambulo__json_number(json, "sd", t->sd);
-    write_score(json, "before", &o->trial[AMBULO__FIT_FIRST].score[index][t->curve], is_curve);
+    if (isfinite(curve->bound[0])) ambulo__json_number(json, "at_least", curve->bound[0]);
+    if (isfinite(curve->bound[1])) ambulo__json_number(json, "at_most", curve->bound[1]);
+    write_score(json, "before", &o->trial[AMBULO__FIT_FIRST].score[index][t->curve], curve);
     if (!isnan(after->apart[index]))
-      write_score(json, "after", &after->score[index][t->curve], is_curve);
+      write_score(json, "after", &after->score[index][t->curve], curve);
     ambulo__json_close(json, '}');
   }
   ambulo__json_close(json, '}');
@@ -172,7 +179,7 @@ static void write_curves(const ambulo__fit_outcome *o, int index, ambulo__json *
 /* "state": before, after, from_zero; "distance" alike; "result": the folder of the motion after */
 static ambulo_status write_states(const ambulo__fit_outcome *o, int index, ambulo__json *json) {
   static const char *const keys[] = {"before", "after", "from_zero"};
-  const ambulo__fit_trial *trials[] = {&o->trial[AMBULO__FIT_FIRST], after_of(o, index),
+  const ambulo__fit_trial *trials[] = {&o->trial[AMBULO__FIT_FIRST], ambulo__fit_after(o, index),
                                        &o->trial[AMBULO__FIT_COLD]};
   ambulo_status status = AMBULO_OK;
   ambulo__json_open(json, "distance", '{');
@@ -254,7 +261,7 @@ ambulo_status ambulo__fit_json(const ambulo__fit_outcome *o, ambulo__text_buffer
   ambulo__json_text(&json, "version", versions.ambulo);
   ambulo__json_text(&json, "problem", o->fit->problem);
   ambulo__json_text(&json, "method", "gauss_newton");
-  ambulo__json_text(&json, "ended_by", ending_name(o->ending));
+  ambulo__json_text(&json, "ended_by", ambulo__fit_ending_name(o->ending));
   ambulo__json_text(&json, "stuck_condition",
                     o->stuck < 0 ? NULL : o->fit->condition[o->stuck].name);
   ambulo__json_integer(&json, "iterations", o->entries - 1);
@@ -272,100 +279,4 @@ ambulo_status ambulo__fit_json(const ambulo__fit_outcome *o, ambulo__text_buffer
   ambulo__json_close(&json, '}');
   ambulo__text_append_char(text, '\n');
   return status ? status : ambulo__text_status(text);
-}
-
-/* ----------------------------------------------------------------------- table */
-
-/* a number in a column of its own, or a dash; a point whatever the locale */
-static void append_cell(ambulo__text_buffer *text, double value, int width, int decimals) {
-  char cell[CELL] = "-";
-  if (!isnan(value)) {
-    (void)snprintf(cell, sizeof cell, "%.*f", decimals, value);
-    char *comma = strchr(cell, ',');
-    if (comma) *comma = '.';
-  }
-  ambulo__text_append_format(text, " %*s", width, cell);
-}
-
-static int decimals_of(const ambulo__fit_target *t) {
-  return t->entry->unit == AMBULO__UNIT_ANGLE ? 1 : 3;
-}
-
-static void append_curves(const ambulo__fit_outcome *o, ambulo__text_buffer *text) {
-  const ambulo_fit *fit = o->fit;
-  ambulo__text_append_format(text, "\n%-12s %-28s %-7s %8s %8s %9s %9s %7s %7s %7s %7s\n",
-                             "condition", "curve", "unit", "z", "after", "rmse", "after", "r",
-                             "after", "range", "after");
-  for (int c = 0; c < fit->conditions; c++) {
-    const ambulo__fit_condition *condition = &fit->condition[c];
-    const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *after = after_of(o, c);
-    for (int k = 0; k < condition->targets; k++) {
-      const ambulo__fit_target *t = &condition->target[k];
-      int known = !isnan(after->apart[c]);
-      const ambulo__fit_score none = {(double)NAN, (double)NAN, (double)NAN,
-                                      (double)NAN, (double)NAN, (double)NAN};
-      const ambulo__fit_score *s = &first->score[c][t->curve],
-                              *e = known ? &after->score[c][t->curve] : &none;
-      ambulo__text_append_format(text, "%-12s %-28s %-7s", k == 0 ? condition->name : "",
-                                 fit->curve[t->curve].name,
-                                 ambulo__curve_unit_name(t->entry->unit));
-      append_cell(text, s->z, 8, 3);
-      append_cell(text, e->z, 8, 3);
-      append_cell(text, s->rmse, 9, decimals_of(t));
-      append_cell(text, e->rmse, 9, decimals_of(t));
-      append_cell(text, s->r, 7, 3);
-      append_cell(text, e->r, 7, 3);
-      append_cell(text, s->ratio, 7, 2);
-      append_cell(text, e->ratio, 7, 2);
-      ambulo__text_append_char(text, '\n');
-    }
-  }
-}
-
-static void append_conditions(const ambulo__fit_outcome *o, ambulo__text_buffer *text) {
-  ambulo__text_append_format(text, "\n%-12s %9s %9s %9s\n", "distance", "before", "after",
-                             "from zero");
-  for (int c = 0; c < o->fit->conditions; c++) {
-    ambulo__text_append_format(text, "%-12s", o->fit->condition[c].name);
-    append_cell(text, o->trial[AMBULO__FIT_FIRST].apart[c], 9, 4);
-    append_cell(text, after_of(o, c)->apart[c], 9, 4);
-    append_cell(text, o->trial[AMBULO__FIT_COLD].apart[c], 9, 4);
-    ambulo__text_append(text, o->fit->condition[c].held_out ? "  held out\n" : "\n");
-  }
-  const ambulo__fit_trial *cold = &o->trial[AMBULO__FIT_COLD];
-  ambulo__text_append_format(text, "%-12s", "fitted");
-  append_cell(text, o->trial[AMBULO__FIT_FIRST].distance, 9, 4);
-  append_cell(text, o->trial[AMBULO__FIT_BEST].distance, 9, 4);
-  append_cell(text, cold->complete ? cold->distance : (double)NAN, 9, 4);
-  ambulo__text_append_char(text, '\n');
-}
-
-static void append_parameters(const ambulo__fit_outcome *o, ambulo__text_buffer *text) {
-  static const char *const bounds[] = {"  at its lower bound", "", "  at its upper bound"};
-  ambulo__text_append_format(text, "\n%-24s %-7s %10s %12s %12s %12s\n", "parameter", "scale",
-                             "change", "before", "after", "sensitivity");
-  for (int i = 0; i < o->fit->parameters; i++) {
-    const ambulo__fit_parameter *p = &o->fit->parameter[i];
-    double u = o->trial[AMBULO__FIT_BEST].u[i], own = p->in_file[0];
-    ambulo__text_append_format(text, "%-24s %-7s", p->name,
-                               p->scale == AMBULO__FIT_LOG ? "times" : "plus");
-    append_cell(text, ambulo__fit_change(p, u), 10, 4);
-    append_cell(text, own, 12, 6);
-    append_cell(text, isnan(own) ? own : ambulo__fit_value(p, own, u), 12, 6);
-    append_cell(text, o->sensitivity[i], 12, 4);
-    ambulo__text_append_format(text, "%s\n", bounds[bound_of(o, i) + 1]);
-  }
-}
-
-void ambulo__fit_table(const ambulo__fit_outcome *o, ambulo__text_buffer *text) {
-  append_curves(o, text);
-  append_conditions(o, text);
-  append_parameters(o, text);
-  ambulo__text_append_format(text, "\nended by     %s after %d iterations", ending_name(o->ending),
-                             o->entries - 1);
-  if (o->stuck >= 0)
-    ambulo__text_append_format(text, ": every solve of condition '%s' failed",
-                               o->fit->condition[o->stuck].name);
-  ambulo__text_append_format(text, "\nsolves       %d, %d of them without a valid solution\n",
-                             o->runner->sweep->case_count, o->runner->progress.failed);
 }

@@ -11,6 +11,9 @@
  *          |r + J d|^2 + (ridge |u + d|^2 + damping trace(J'J) |d|^2) / parameters
  *
  *      within the bounds, |d_i| <= 4, for four dampings. The four u + d are solved at once.
+ *      The residual of a guard is 0 while it holds, and its differences do not tell where it
+ *      breaks: in the model it is p(v + V d) instead, p being the residual of a guard with the
+ *      number v (fit_residual.c) and V the differences of v.
  *   3. The best of all trials is the next u, if it is still better with the solutions that zero
  *      finds there where those are the better ones (refresh). The damping becomes that of the
  *      accepted model; it grows where nothing is better.
@@ -31,6 +34,15 @@ static const double difference = 0.1, longest = 4.0; /* of a step, in steps */
 static const double damping_start = 0.03, damping_least = 1e-4, damping_most = 2.0;
 static const double least_gain = 1e-6, least_distance = 1e-8;
 
+/* a guard of a condition that is solved */
+typedef struct guard {
+  const ambulo__fit_target *target;
+  int condition, row;                          /* of its residual */
+  double factor;                               /* of its residual, by the weights */
+  double value, slope[AMBULO__FIT_PARAMETERS]; /* v; V, per step */
+  double rate;                                 /* of the residual in v, in the model */
+} guard;
+
 typedef struct search {
   const ambulo__fit_task *task;
   const ambulo_fit *fit;
@@ -38,7 +50,9 @@ typedef struct search {
   ambulo__fit_trial *trial; /* [parameters + DAMPINGS] differences, then candidates */
   double *jacobian;         /* [parameters][residuals] */
   double *row;              /* [residuals] r + J d */
-  double trace;             /* of J'J */
+  guard *guard;             /* [guards] with room for all */
+  int guards;
+  double trace; /* of J'J */
   double damping, tried[DAMPINGS];
   ambulo__fit_step step;
 } search;
@@ -63,7 +77,28 @@ static double choose_difference(const search *s, int i) {
   return goes_up ? fmin(difference, up) : -fmin(difference, down);
 }
 
-/* Returns |column|^2; NaN where it is no derivative. */
+/* the guards of the best trial, without slopes */
+static void list_guards(search *s) {
+  const ambulo_fit *fit = s->fit;
+  s->guards = 0;
+  for (int c = 0; c < fit->conditions; c++) {
+    const ambulo__fit_condition *condition = &fit->condition[c];
+    if (condition->held_out || !s->best->solved[c]) continue;
+    for (int k = 0; k < condition->targets; k++) {
+      const ambulo__fit_target *t = &condition->target[k];
+      const ambulo__fit_curve *curve = &fit->curve[t->curve];
+      if (!curve->is_guard) continue;
+      guard *g = &s->guard[s->guards++];
+      memset(g, 0, sizeof *g);
+      g->target = t;
+      g->condition = c;
+      g->row = condition->first + t->first;
+      g->factor = sqrt(condition->weight * curve->weight / fit->weights);
+      g->value = s->best->score[c][t->curve].value;
+    }
+  }
+}
+/* Returns |column|^2; NaN where it is no derivative. Rows of guards are left to the model. */
 static double fill_column(search *s, int i, double h) {
   const ambulo__fit_trial *t = &s->trial[i];
   int residuals = s->fit->residuals, known = 1;
@@ -73,6 +108,12 @@ static double fill_column(search *s, int i, double h) {
   for (int k = 0; k < residuals; k++) {
     column[k] = known ? (t->residual[k] - s->best->residual[k]) / h : 0.0;
     squares += column[k] * column[k];
+  }
+  for (int k = 0; k < s->guards; k++) {
+    guard *g = &s->guard[k];
+    double value = t->score[g->condition][g->target->curve].value;
+    g->slope[i] = known ? (value - g->value) / h : 0.0;
+    column[g->row] = 0.0;
   }
   return known ? squares : (double)NAN;
 }
@@ -91,6 +132,7 @@ static ambulo_status differentiate(search *s, double *sensitivity, int *stopped)
   if (status || *stopped) return status;
   s->trace = 0.0;
   s->step.dropped = 0;
+  list_guards(s);
   for (int i = 0; i < n; i++) {
     double squares = fill_column(s, i, h[i]);
     sensitivity[i] = sqrt(squares);
@@ -114,6 +156,17 @@ static int find_stuck(const search *s) {
 
 /* ------------------------------------------------------------------ candidates */
 
+/* rows of guards in the model at d */
+static void fill_guards(search *s, const double *d) {
+  for (int k = 0; k < s->guards; k++) {
+    guard *g = &s->guard[k];
+    double value = g->value, slope = 0.0;
+    for (int i = 0; i < s->fit->parameters; i++) value += g->slope[i] * d[i];
+    s->row[g->row] = g->factor * ambulo__fit_guard(s->fit, g->target, value, &slope);
+    g->rate = g->factor * slope;
+  }
+}
+
 /* the model at d, and its gradient */
 static double model(unsigned n, const double *d, double *gradient, void *data) {
   search *s = data;
@@ -122,11 +175,14 @@ static double model(unsigned n, const double *d, double *gradient, void *data) {
   memcpy(s->row, s->best->residual, residuals * sizeof *s->row);
   for (unsigned i = 0; i < n; i++)
     for (size_t k = 0; k < residuals; k++) s->row[k] += s->jacobian[i * residuals + k] * d[i];
+  fill_guards(s, d);
   for (size_t k = 0; k < residuals; k++) value += s->row[k] * s->row[k];
   for (unsigned i = 0; i < n; i++) {
     double u = s->best->u[i] + d[i], slope = ridge * u + damping * d[i];
     value += ridge * u * u + damping * d[i] * d[i];
     for (size_t k = 0; k < residuals; k++) slope += s->jacobian[i * residuals + k] * s->row[k];
+    for (int k = 0; k < s->guards; k++)
+      slope += s->guard[k].slope[i] * s->guard[k].rate * s->row[s->guard[k].row];
     if (gradient) gradient[i] = 2.0 * slope;
   }
   return value;
@@ -230,10 +286,12 @@ ambulo_status ambulo__fit_search(const ambulo__fit_task *task, ambulo__fit_trial
   s.trial = ambulo__fit_trials_make(fit, (int)n + DAMPINGS, a);
   s.jacobian = ambulo__alloc(a, n * m, sizeof *s.jacobian);
   s.row = ambulo__alloc(a, m, sizeof *s.row);
+  s.guard = ambulo__alloc(a, (size_t)fit->conditions * (size_t)fit->curves, sizeof *s.guard);
   ambulo_status status = AMBULO_E_MEMORY;
-  if (s.trial && s.jacobian && s.row) status = iterate(&s, sensitivity, ending, stuck);
+  if (s.trial && s.jacobian && s.row && s.guard) status = iterate(&s, sensitivity, ending, stuck);
   ambulo__free(a, s.trial);
   ambulo__free(a, s.jacobian);
   ambulo__free(a, s.row);
+  ambulo__free(a, s.guard);
   return status;
 }

@@ -69,7 +69,6 @@ static ambulo_status allocate(ambulo__fit_runner *r) {
     for (int t = 0; t < condition->targets; t++) {
       const ambulo__fit_target *target = &condition->target[t];
       if (target->points > r->points) r->points = target->points;
-      if (!condition->held_out) r->weights += condition->weight * fit->curve[target->curve].weight;
     }
   }
   r->values = ambulo__alloc(r->allocator, (size_t)r->points, sizeof *r->values);
@@ -234,7 +233,8 @@ static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__sam
                                    ambulo__fit_trial *trial) {
   const ambulo_fit *fit = r->fit;
   const ambulo__fit_condition *c = &fit->condition[index];
-  double sum = 0.0, weights = 0.0;
+  double sum = 0.0, weights = ambulo__fit_weight(fit, c, 0);
+  if (!(weights > 0.0)) weights = ambulo__fit_weight(fit, c, 1);
   for (int k = 0; k < c->targets; k++) {
     const ambulo__fit_target *t = &c->target[k];
     ambulo__fit_score *score = &trial->score[index][t->curve];
@@ -248,13 +248,12 @@ static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__sam
     if (motion && !found) return lacks_curve(r, c, t, motion->cycle);
     ambulo__fit_residual(fit, t, motion ? r->values : NULL, block, score);
     sum += weight * score->z;
-    weights += weight;
-    double factor = sqrt(c->weight * weight / r->weights);
+    double factor = sqrt(c->weight * weight / fit->weights);
     for (int i = 0; i < t->count && !c->held_out; i++)
       trial->residual[c->first + t->first + i] = factor * block[i];
   }
-  trial->apart[index] = weights > 0.0 ? sum / weights : 0.0;
-  if (!c->held_out) trial->distance += c->weight * sum / r->weights;
+  trial->apart[index] = sum / weights;
+  if (!c->held_out) trial->distance += c->weight * sum / fit->weights;
   return AMBULO_OK;
 }
 

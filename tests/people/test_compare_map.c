@@ -82,8 +82,7 @@ static void faults(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(built_in_signs),
-      cmocka_unit_test(the_line_of_a_curve),
+      cmocka_unit_test(built_in_signs), cmocka_unit_test(the_line_of_a_curve),
       cmocka_unit_test_setup_teardown(from_a_file, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(faults, scratch_open, scratch_close)};
   return cmocka_run_group_tests_name("compare/compare_map", tests, NULL, NULL);

@@ -125,7 +125,8 @@ static void every_allocation_may_fail(void **state) {
 static void curves_are_read(void **state) {
   ambulo_fit *f = fit_of(state, WITH("{correlation: 0.5, range: 0.25, cap: 9, curves: {pin: 3,\n"
                                      "  rom: {curve: pin, of: range, weight: 0.5, sd: 4},\n"
-                                     "  shape: {curve: pin, centred: true, between: [10, 60]}}}"));
+                                     "  shape: {curve: pin, centred: true, between: [10, 60],\n"
+                                     "    range: 1.5, correlation: 0}}}"));
   assert_close(f->correlation, 0.5, 0.0);
   assert_close(f->range_cost, 0.25, 0.0);
   assert_close(f->cap, 9.0, 0.0);
@@ -139,6 +140,11 @@ static void curves_are_read(void **state) {
   assert_int_equal(f->curve[2].centred, 1);
   assert_close(f->curve[2].from, 10.0, 0.0);
   assert_close(f->curve[2].to, 60.0, 0.0);
+  /* those of the distance, or its own */
+  assert_close(f->curve[0].correlation, 0.5, 0.0);
+  assert_close(f->curve[0].range_cost, 0.25, 0.0);
+  assert_close(f->curve[2].correlation, 0.0, 0.0);
+  assert_close(f->curve[2].range_cost, 1.5, 0.0);
   ambulo_fit_free(f);
 }
 
@@ -150,6 +156,12 @@ static void what_is_no_distance(void **state) {
   fit_refused(state, WITH("{curves: {pin: {of: peek}}}"), "did you mean 'peak'?");
   fit_refused(state, WITH("{curves: {pin: {of: peak, centred: true}}}"),
               "'centred' is of whole curves");
+  fit_refused(state, WITH("{curves: {pin: {of: range, range: 2}}}"),
+              "fit.yaml:12:45: error[E_SCHEMA]: 'range' is of whole curves; expected it without "
+              "'of: range'");
+  fit_refused(state, WITH("{curves: {pin: {of: peak, correlation: 0}}}"),
+              "'correlation' is of whole curves");
+  fit_refused(state, WITH("{curves: {pin: {range: -1}}}"), "fit.yaml:12:34: error[E_SCHEMA]");
   fit_refused(state, WITH("{curves: {pin: {between: [60, 20]}}}"), "between 60 and 20");
   fit_refused(state, WITH("{curves: {pin: {centered: true}}}"), "did you mean 'centred'?");
 }

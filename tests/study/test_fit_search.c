@@ -83,6 +83,33 @@ static void linear_residuals_take_one_iteration(void **state) {
   }
 }
 
+/* A guard that holds at first has differences of 0. The model knows where it breaks, and the first
+ * step ends there; with both residuals of the other condition at their least beside it. */
+static void a_guard_that_holds_at_first(void **state) {
+  (void)state;
+  fit_made_up w = {.scale = 5.0, .linear = 1, .guarded = 1};
+  ambulo__fit_trial *best;
+  double sensitivity[2];
+  int stuck;
+  fit_made_up_open(&w, &best);
+  w.fit.iterations = 1;
+  (void)run(&w, best, sensitivity, &stuck);
+  assert_close(best->u[0], 0.4, 0.01);
+  assert_close(best->u[1], 1.6, 0.05);
+  assert_true(best->distance < 2e-3);
+  fit_made_up_close(&w, best);
+  /* broken far beyond the cap, it is left at once */
+  w.notes = 0;
+  fit_made_up_open(&w, &best);
+  best->u[0] = best->u[1] = 1.0;
+  fit_made_up_score(&w, best, 1);
+  best->cost = ambulo__fit_cost(&w.fit, best);
+  assert_true(best->distance > 12.0);
+  (void)run(&w, best, sensitivity, &stuck);
+  assert_close(best->u[0], 0.4, 0.03);
+  fit_made_up_close(&w, best);
+}
+
 /* u_0 cannot be moved without a failure: it stays, and the other is fitted */
 static void a_column_that_fails_is_left_out(void **state) {
   (void)state;
@@ -175,7 +202,7 @@ static void memory_may_give_out(void **state) {
     fit_made_up_close(&w, best);
     if (!failed) break;
   }
-  assert_int_equal(rounds, 3);
+  assert_int_equal(rounds, 4);
 }
 
 int main(void) {
@@ -184,6 +211,7 @@ int main(void) {
       cmocka_unit_test(a_ridge_holds_back),
       cmocka_unit_test(bounds_hold),
       cmocka_unit_test(linear_residuals_take_one_iteration),
+      cmocka_unit_test(a_guard_that_holds_at_first),
       cmocka_unit_test(a_column_that_fails_is_left_out),
       cmocka_unit_test(failures_are_no_derivatives),
       cmocka_unit_test(a_condition_that_is_never_solved),

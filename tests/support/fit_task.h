@@ -4,7 +4,8 @@
  * Two parameters u, two conditions of two residuals each, and one that is held out:
  *     r = (10 (u_1 - u_0^2), 1 - u_0, 0.3 (u_0 + u_1 - 2), 0)            Rosenbrock and more
  * or, if `linear`, r = (u_0 + u_1 - 2, 0.1 (u_0 - u_1), 0, 0), divided by `scale`; least, 0, at u =
- * (1, 1). What goes wrong is asked for by the members. */
+ * (1, 1). With `guarded` the last one is that of a guard: u_0 at most 0.4, deviation 0.01. What
+ * goes wrong is asked for by the members. */
 #ifndef AMBULO_TESTS_FIT_TASK_H
 #define AMBULO_TESTS_FIT_TASK_H
 
@@ -14,7 +15,7 @@
 
 typedef struct fit_made_up {
   double scale;
-  int linear;
+  int linear, guarded;
   int fails;   /* condition 1 is solved 1: at the start only; 2: nowhere; 3: where u_0 = 0 */
   int stop_at; /* after so many trials the caller stops; 0: never */
   int evaluated, rounds, refreshed, notes;
@@ -25,6 +26,9 @@ typedef struct fit_made_up {
   ambulo_allocator allocator;
   double lower[2], upper[2];
   ambulo__fit_parameter parameter[2];
+  ambulo__fit_condition condition[3];
+  ambulo__fit_curve curve;
+  ambulo__fit_target target;
   ambulo_fit fit;
   ambulo__fit_task task;
 } fit_made_up;
@@ -35,9 +39,11 @@ static inline void fit_made_up_score(fit_made_up *w, ambulo__fit_trial *t, int i
   const double linear[4] = {a + b - 2.0, 0.1 * (a - b), 0.0, 0.0};
   const double *r = w->linear ? linear : curved;
   int fails = w->fails == 2 || (w->fails == 1 && !is_start) || (w->fails == 3 && a != 0.0);
+  double slope, guard = w->guarded ? ambulo__fit_guard(&w->fit, &w->target, a, &slope) : 0.0;
   t->distance = 0.0;
+  t->score[1][0].value = a;
   for (int k = 0; k < 4; k++) {
-    t->residual[k] = k >= 2 && fails ? 3.0 : r[k] / w->scale;
+    t->residual[k] = k >= 2 && fails ? 3.0 : r[k] / w->scale + (k == 3 ? guard : 0.0);
     t->distance += t->residual[k] * t->residual[k];
   }
   t->solved[0] = 1;
@@ -92,9 +98,17 @@ static inline void fit_made_up_open(fit_made_up *w, ambulo__fit_trial **best) {
   }
   for (int i = 0; i < 2; i++)
     w->parameter[i] = (ambulo__fit_parameter){.lower = w->lower[i], .upper = w->upper[i]};
+  w->curve = (ambulo__fit_curve){.weight = 1.0, .is_guard = 1, .bound = {-(double)INFINITY, 0.4}};
+  w->target = (ambulo__fit_target){.first = 1, .count = 1, .sd = 0.01};
+  w->condition[1] = (ambulo__fit_condition){
+      .weight = 1.0, .first = 2, .residuals = 2, .target = &w->target, .targets = w->guarded};
   w->fit = (ambulo_fit){.parameter = w->parameter,
                         .parameters = 2,
                         .residuals = 4,
+                        .weights = 1.0,
+                        .cap = 12.0,
+                        .curve = &w->curve,
+                        .condition = w->condition,
                         .conditions = 3,
                         .curves = 1,
                         .tolerance = 1e-4,
