@@ -55,9 +55,9 @@ static double kept_by_pads(const walk *w, double *most) {
 static void expect_given_back(const walk *w, double part) {
   double positive, most, off = kept_by_pads(w, &most);
   (void)joint_work(w, &positive);
-  if (!(off <= part * most && most >= 0.025 * positive))
+  if (!(off <= part * most && most >= 0.015 * positive))
     print_error("pads: %.3f J of %.2f J are lost; joints %.2f J\n", off, most, positive);
-  assert_true(most >= 0.025 * positive);
+  assert_true(most >= 0.015 * positive);
   assert_true(off <= part * most);
 }
 
@@ -73,7 +73,7 @@ static void pads_give_back_what_they_take(void **state) {
   close_walk(&w);
 }
 
-/* so that it is the tolerances, not the pads (measured: .12 J of 1.36, a 25th of the tolerances) */
+/* so that it is the tolerances, not the pads (measured: .10 J of 1.17, a 25th of the tolerances) */
 static void pads_of_feet_that_are_held_keep_nothing(void **state) {
   (void)state;
   ONLY_IN_CHECK_LONG();
