@@ -102,7 +102,7 @@ typedef struct window {
 
 static const bound angles[] = {{"hip_flexion", 6.5, 0.97, 0.95},
                                {"knee_flexion", 7.0, 0.96, 0.88},
-                               {"ankle_dorsiflexion", 4.5, 0.90, 0.90}};
+                               {"ankle_dorsiflexion", 4.8, 0.90, 0.85}}; /* a short push-off */
 /* with the trunk rigidly on the pelvis the knee gives way further on a heel that rolls 2 cm behind
  * the ankle (25 degrees for people's 15 to 20), and the ankle with it */
 static const bound angles_18[] = {{"hip_flexion", 5.5, 0.97, 0.95},
