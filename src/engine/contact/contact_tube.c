@@ -50,7 +50,6 @@ typedef struct tube {
       *contact[2];       /* of one foot: one, or the one that ends and the one that begins */
   int before[2];         /* 1: the one that ends */
   ambulo__linear pad[2]; /* d of each, m; without terms where it has none */
-  double touch[2];       /* a0, a1 */
   int contacts, node;
   ambulo__row_table *table;
 } tube;
@@ -68,8 +67,8 @@ static ambulo__linear pad_of(const tube *t, const ambulo_contact *contact) {
   double give = d->ground_reaction.heel_pad / ambulo__model_weight(context->model);
   double share = 1.0, turn = 0.0;
   if (ambulo__mode_is_flat(contact->mode)) {
-    turn = 1.0 / (t->touch[1] - t->touch[0]);
-    share = turn * (t->touch[1] -
+    turn = 1.0 / (t->outline->touch[1] - t->outline->touch[0]);
+    share = turn * (t->outline->touch[1] -
                     ambulo__contact_frame_along(&load.frame, load.frame.forward, load.center));
   }
   ambulo__linear_add(&pad, ambulo__channel_foot_force(&context->channels, slot, 0), load.frame.up,
@@ -114,7 +113,8 @@ static void place_bounds(const tube *t, int point, const double direction[3], co
 static void height_bounds(const tube *t, int i, int point, double ahead, const double up[3],
                           const double place[3]) {
   ambulo__linear form = way_off(t, point, up, place);
-  add_pad(t, i, (t->touch[1] - ahead) / (t->touch[1] - t->touch[0]), &form);
+  add_pad(t, i, (t->outline->touch[1] - ahead) / (t->outline->touch[1] - t->outline->touch[0]),
+          &form);
   within(t, point, &form, "below", "above");
 }
 
@@ -160,7 +160,7 @@ static ambulo__linear pitch_over_pad(const tube *t, int i) {
   const ambulo_contact *contact = t->contact[0];
   ambulo__contact_frame frame = ambulo__contact_frame_of(t->context->definition, contact);
   ambulo__linear pitch = ambulo__foot_pitch(t->context, contact->foot, frame.up);
-  add_pad(t, i, -1.0 / (t->touch[1] - t->touch[0]), &pitch);
+  add_pad(t, i, -1.0 / (t->outline->touch[1] - t->outline->touch[0]), &pitch);
   return pitch;
 }
 
@@ -193,7 +193,7 @@ static void arc_rows(const tube *t, int i, const ambulo__contact_frame *frame) {
   double ahead = t->outline->arc_ahead[end], radius = t->outline->radius[end], place[3];
   for (int k = 0; k < 3; k++)
     place[k] = frame->origin[k] + ahead * frame->forward[k] + radius * frame->up[k];
-  height_bounds(t, i, point, t->touch[0], frame->up, place);
+  height_bounds(t, i, point, t->outline->touch[0], frame->up, place);
   if (t->outline->moves_sideways)
     place_bounds(t, point, frame->left, place, "to the right", "to the left");
   ambulo__arc arc = {.room = context->definition->contact_tolerance,
@@ -294,8 +294,6 @@ static void contact_rows(const tube *t) {
 static void add_contacts(tube *t, int order, int foot) {
   const ambulo__gait_context *context = t->context;
   ambulo__phases_of_foot phases = ambulo__phases_at(context, order, t->node, foot);
-  for (int k = 0; k < 2; k++) t->touch[k] = k ? t->outline->length : 0.0;
-  for (int k = 0; k < 2 && t->outline->has_arcs; k++) t->touch[k] = t->outline->arc_ahead[k];
   for (int i = 0; i < 2 && i < phases.count; i++) {
     if (phases.contact[i] < 0) continue;
     t->before[t->contacts] = ambulo__phase_is_before(context, i);

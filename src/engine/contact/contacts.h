@@ -150,6 +150,7 @@ typedef struct ambulo__foot_outline {
   int has_arcs;
   int arc[2];                     /* the model's points: centres of the arcs of heel and forefoot */
   double arc_ahead[2], radius[2]; /* along forward from the heel centre, above it: m */
+  double touch[2];                /* where heel and ball touch, along forward: m */
 } ambulo__foot_outline;
 
 ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot);

@@ -189,6 +189,8 @@ static void add_arcs(const ambulo_model *model, const ambulo_foot *foot, const d
 
 static void add_ends(const ambulo_model *model, int foot, ambulo__foot_outline *outline) {
   double narrow = INFINITY;
+  for (int end = 0; end < 2; end++)
+    outline->touch[end] = outline->has_arcs ? outline->arc_ahead[end] : end * outline->length;
   outline->tip = fmax(outline->length, ambulo__foot_reach(model, foot));
   for (int c = 0; c < outline->count; c++) {
     if (outline->place[c][0] < -1e-9) /* rounding apart */

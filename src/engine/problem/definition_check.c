@@ -5,6 +5,7 @@
  * solve.
  */
 #include "contact/row_families.h"
+#include "contact/contacts.h"
 #include "contact/devices.h"
 #include "problem/definition.h"
 #include "problem/term.h"
@@ -333,6 +334,15 @@ static ambulo_status check_heel_pad(const ambulo_problem_definition *d, ambulo_d
                   "ground_reaction.heel_pad is %g m and no forces press on it; expected kind "
                   "shared, or 0",
                   pad);
+  for (int i = 0; i < ambulo_model_foot_count(d->model); i++) {
+    ambulo__foot_outline foot = ambulo__foot_outline_of(d->model, i);
+    const double *touch = foot.touch;
+    if (touch[1] - touch[0] > narrowest) continue;
+    return REFUSE(list,
+                  "ground_reaction.heel_pad is %g m, and heel and ball of '%s' touch at %g m and "
+                  "%g m along the foot; expected a ball that is ahead",
+                  pad, ambulo_model_foot(d->model, i)->name, touch[0], touch[1]);
+  }
   if (d->contact_tolerance > 0.0) return AMBULO_OK;
   return REFUSE(list,
                 "ground_reaction.heel_pad is %g m without constraints.contact_tolerance, and heels "
