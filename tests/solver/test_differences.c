@@ -146,14 +146,13 @@ static void a_walk_on_shared_arcs(void **state) {
 static void a_walk_on_heel_pads(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk.yaml",
-      {"ground={slope: 3}", "load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}",
-       "time.intervals=48"},
-      {"ground_reaction.heel_pad", "ground_reaction.moment_arm", "gait.speed", "gait.step_width",
-       "gait.phases.foot_flat.comfortable", "gait.phases.heel_off.comfortable", "subject.mass",
-       "load.mass", "ground.slope"}};
-  static const setting rigid = {
-      "models/walk.yaml", {"ground_reaction.heel_pad=0", "time.intervals=48"}, {NULL}};
+      "tests/support/walk_rigid.yaml",
+      {"load={link: pelvis, mass: 20, position: [-0.18, 0.35, 0]}", SHARED,
+       "ground_reaction.heel_pad=0.008", "ground={slope: 3}", "time.intervals=40", ON_EVENTS},
+      {"ground_reaction.heel_pad", "ground_reaction.moment_arm", "gait.step_length",
+       "gait.step_width", "gait.phases.foot_flat", "gait.phases.heel_off", "time.duration",
+       "subject.mass", "load.mass", "ground.slope"}};
+  static const setting rigid = {"tests/support/walk_rigid.yaml", {NULL}, {NULL}};
   static const char *const idle[] = {"ground_reaction.heel_pad", NULL};
   check(&c, NULL);
   expect_absent(&rigid, idle);
