@@ -227,6 +227,8 @@ define compile_kernel
 endef
 $(OUT)/obj/src/engine/mechanics/kernels_%.o: src/engine/mechanics/kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
+$(OUT)/obj/src/engine/muscle/kernels_%.o: src/engine/muscle/kernels_%.c $(OUT)/obj/flags
+	$(compile_kernel)
 $(OUT)/obj/src/engine/linear/band_kernels_%.o: src/engine/linear/band_kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
 

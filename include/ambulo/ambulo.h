@@ -49,6 +49,7 @@
 #include "ambulo/hold.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
+#include "ambulo/muscles.h"
 #include "ambulo/objective.h"
 #include "ambulo/parameters.h"
 #include "ambulo/problem.h"

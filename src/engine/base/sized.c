@@ -104,6 +104,12 @@ static const ambulo__usual rows[] = {
 
     ROW(ambulo_parameter, 0, {.lower = AMBULO_OFF, .upper = AMBULO_OFF}),
     ROW(ambulo_parameters, 2, {.maximum_solves = 60}),
+
+    ROW(ambulo_muscle, 0,
+        {.group = "", .mirror = ITSELF, .passive_strain = 0.6, .fast_fibers = 0.5, .elastic = NONE}),
+    ROW(ambulo_muscles_definition, 2, {.name = "muscles", .source = ""}),
+    ROW(ambulo_sharing, 1, {.activation = 1.0, .reserve = 0.2, .by_volume = 1}),
+    ROW(ambulo_sharing_outputs, 1, {0}),
 };
 
 ambulo_status ambulo_defaults(const char *name, void *structure, size_t bytes) {
