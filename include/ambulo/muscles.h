@@ -35,11 +35,13 @@ typedef struct ambulo_muscles ambulo_muscles;
 
 enum { AMBULO_MUSCLE_COORDINATES = 4, AMBULO_MUSCLE_EXPONENT = 6 }; /* at most */
 
-/* How a muscle's length changes when the link below a joint is moved along its parent's axes: by
- * virtual work, -F times it is the muscle's force on that link. Polynomials in the coordinates of
- * the muscle. */
+/* How a muscle's length changes when a joint comes apart: the link below it, and all that hangs on
+ * that, is moved along the axes of a link above it. By virtual work, -F times it is the muscle's
+ * force on what is moved. Polynomials in the coordinates of the muscle. */
 typedef struct ambulo_muscle_pull {
-  int link; /* below the joint */
+  const char *joint; /* its name, "hip_r"; the same for all muscles that cross it */
+  int link;          /* below the joint */
+  int axes; /* the link whose frame has the axes */
   int term_count;
   const unsigned char (*exponents)[AMBULO_MUSCLE_COORDINATES]; /* [term_count] */
   const double (*slopes)[3];                                   /* [term_count] x, y, z, m/m */
@@ -61,14 +63,15 @@ typedef struct ambulo_muscle {
   double tendon_strain; /* at s = 1; > 0 with `elastic` */
   int coordinate_count; /* 1 to 4 */
   int coordinates[AMBULO_MUSCLE_COORDINATES];
+  double range[AMBULO_MUSCLE_COORDINATES][2]; /* where the polynomial holds, rad; not enforced */
   int term_count;
   const unsigned char (*exponents)[AMBULO_MUSCLE_COORDINATES]; /* [term_count]; each at most 6 */
   const double *length;                                        /* [term_count] c_t */
   const ambulo_muscle_pull *pulls;                             /* [pull_count] */
   int pull_count;
 } ambulo_muscle;
-/* No elastic tendon, own mirror, passive strain 0.6, half of the fibres fast; the rest must be set.
- */
+/* No elastic tendon, own mirror, passive strain 0.6, half of the fibres fast, no range; the rest
+ * must be set. */
 AMBULO_DEFAULT(ambulo_muscle);
 
 /* Arrays are borrowed during the call only. */

@@ -7,6 +7,7 @@
 #define AMBULO_TOOLS_LOAD_H
 
 #include "ambulo/again.h"
+#include "ambulo/muscles.h"
 #include "ambulo/parameters.h"
 #include "ambulo/tools/common.h"
 
@@ -48,6 +49,18 @@ ambulo_model_load_with(const char *path, const char *const *overrides, int overr
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
     const char *text, size_t length, const char *name, const ambulo_subject *subject,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_model **model);
+
+/* ------------------------------------------------------------------ muscles */
+
+/* Muscles of a file, on a model that has their coordinates and links under the same names; lengths
+ * are scaled with its legs, forces with its mass (docs/muscles-format.md). `model` must outlive
+ * them; `allocator` and `diagnostics` may be NULL. Errors: as ambulo_model_load and
+ * ambulo_muscles_create. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_muscles_load(const char *path,
+                                                              const ambulo_model *model,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics,
+                                                              ambulo_muscles **muscles);
 
 /* ----------------------------------------------------------------- problems */
 

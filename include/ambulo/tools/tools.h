@@ -25,6 +25,7 @@
 #include "ambulo/tools/import.h"
 #include "ambulo/tools/inverse.h"
 #include "ambulo/tools/load.h"
+#include "ambulo/tools/muscle_analysis.h"
 #include "ambulo/tools/page.h"
 #include "ambulo/tools/picture.h"
 #include "ambulo/tools/report.h"

@@ -84,7 +84,7 @@ static void check_path(checker *c, int muscle) {
   check_polynomial(c, muscle, m->term_count, m->exponents, m->length, 1);
   for (int p = 0; p < m->pull_count; p++) {
     const ambulo_muscle_pull *pull = &m->pulls[p];
-    if (!ambulo_model_link(c->model, pull->link))
+    if (!ambulo_model_link(c->model, pull->link) || !ambulo_model_link(c->model, pull->axes))
       refuse(c, muscle, "the link of a pull", pull->link, "a link of the model");
     check_polynomial(c, muscle, pull->term_count, pull->exponents, (const double *)pull->slopes, 3);
   }
@@ -124,10 +124,13 @@ ambulo_status ambulo__muscles_check(const ambulo_model *model,
     return ambulo__error(diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
                          "the number of muscles is out of range (got %d); expected 1 to %d",
                          d->muscle_count, AMBULO__MOST_MUSCLES);
-  for (int i = 0; i < d->muscle_count; i++)
-    if (!d->muscles[i].name || !d->muscles[i].group ||
-        (d->muscles[i].pull_count > 0 && !d->muscles[i].pulls))
+  for (int i = 0; i < d->muscle_count; i++) {
+    const ambulo_muscle *m = &d->muscles[i];
+    if (!m->name || !m->group || m->pull_count < 0 || (m->pull_count > 0 && !m->pulls))
       return AMBULO_E_ARGUMENT;
+    for (int p = 0; p < m->pull_count; p++)
+      if (!m->pulls[p].joint) return AMBULO_E_ARGUMENT;
+  }
   for (int i = 0; i < d->muscle_count; i++) {
     check_name(&c, i);
     check_numbers(&c, i);

@@ -51,6 +51,11 @@ static void sort_path(ambulo_muscles *m, int muscle) {
       int swapped = own->coordinates[k];
       own->coordinates[k] = own->coordinates[k - 1];
       own->coordinates[k - 1] = swapped;
+      for (int end = 0; end < 2; end++) {
+        double bound = own->range[k][end];
+        own->range[k][end] = own->range[k - 1][end];
+        own->range[k - 1][end] = bound;
+      }
       for (int p = -1; p < own->pull_count; p++) {
         int terms = p < 0 ? own->term_count : own->pulls[p].term_count;
         const unsigned char(*from)[AMBULO__SPAN] = p < 0 ? own->exponents : own->pulls[p].exponents;

@@ -21,6 +21,7 @@ static amounts amounts_of(const ambulo_muscles_definition *d) {
     n.terms += (size_t)m->term_count;
     n.numbers += (size_t)m->term_count;
     for (int p = 0; p < m->pull_count; p++) {
+      n.text += strlen(m->pulls[p].joint) + 1;
       n.terms += (size_t)m->pulls[p].term_count;
       n.numbers += 3 * (size_t)m->pulls[p].term_count;
     }
@@ -85,6 +86,7 @@ static void keep_muscle(ends *to, int index, const ambulo_muscle *from, ambulo_m
   for (int p = 0; p < m->pull_count; p++) {
     ambulo_muscle_pull *pull = (ambulo_muscle_pull *)&m->pulls[p];
     *pull = from->pulls[p];
+    pull->joint = keep_text(to, pull->joint);
     pull->exponents = keep_exponents(to, pull->exponents, pull->term_count, m->coordinate_count);
     pull->slopes =
         (const double(*)[3])keep_numbers(to, (const double *)pull->slopes, 3 * pull->term_count);

@@ -29,6 +29,8 @@ static const ambulo__usual rows[] = {
          .force_cutoff = AMBULO_OFF,
          .filter_order = 4}),
     ROW(ambulo_inverse_outputs, 1, {0}),
+    ROW(ambulo_muscle_options, 1,
+        {.activation = 1.0, .reserve = 0.2, .by_volume = 1, .resting_power = 1.2}),
     ROW(ambulo_batch_options, 1,
         {.shard = 1, .shards = 1, .case_seconds = AMBULO_OFF, .grace = 30.0}),
     ROW(ambulo_fit_options, 1, {.case_seconds = AMBULO_OFF, .grace = 30.0}),

@@ -95,6 +95,7 @@ static const format formats[] = {
     {"sweep", "a sweep", "axes",
      "ambulo batch takes it; its --dry-run checks it and lists the cases"},
     {"fit", "a fit", "conditions", "ambulo fit takes it"},
+    {"muscles", "a file of muscles", "muscles", "ambulo muscles takes it, as --muscles"},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 

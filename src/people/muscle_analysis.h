@@ -1,0 +1,33 @@
+/* people/muscle_analysis.h - a motion's torques shared among muscles: the inside. */
+#ifndef AMBULO_PEOPLE_MUSCLE_ANALYSIS_H
+#define AMBULO_PEOPLE_MUSCLE_ANALYSIS_H
+
+#include "ambulo/tools/muscle_analysis.h"
+#include "formats/motion_file.h"
+#include "people/joint_contact.h"
+#include "people/metabolic.h"
+
+enum { AMBULO__MOST_CUTS = 32 };
+
+struct ambulo_muscle_analysis {
+  ambulo_allocator allocator;
+  const ambulo_muscles *muscles;
+  char *motion; /* the file */
+  ambulo_muscle_options options;
+  ambulo_muscle_values values;
+  ambulo__cut cuts[AMBULO__MOST_CUTS];
+  const char *joints[AMBULO__MOST_CUTS];
+  /* what `values` shows, and what it comes from */
+  double *times, *q, *qd, *qdd, *tau, *tau_rate, *grf;
+  double *activation, *force, *length, *speed, *metabolic, *reserve, *contact, *between;
+  int has_grf;
+};
+
+/* Integral over the rows (trapezoids) of values[k * stride]. */
+double ambulo__muscle_integral(const ambulo_muscle_analysis *a, const double *values,
+                               size_t stride);
+
+/* The table as text: muscle_table.c. */
+void ambulo__muscle_table(const ambulo_muscle_analysis *a, int sto, ambulo__text_buffer *text);
+
+#endif
