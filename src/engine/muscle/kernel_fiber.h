@@ -34,7 +34,6 @@ typedef struct fiber {
   wide linear, linear_y, linear_v; /* price of a: metabolic b */
   wide square, square_y;           /* price of a^2 */
   wide length, speed;              /* n, v_M / l_o */
-  wide a, piece, z, dz;            /* of the sharing */
 } fiber;
 
 /* a value and its slope */

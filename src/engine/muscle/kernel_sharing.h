@@ -38,11 +38,23 @@
 
 enum { most_steps = 60, most_trials = 40, limb_slots = AMBULO__LIMB_COORDINATES };
 
+/* A muscle in the search: G over its slots, b, a, and on which side of its kinks. */
+typedef struct pulling {
+  wide pull[AMBULO__SPAN], linear, a, piece;
+} pulling;
+
+/* What the line search reads of it: z, its change along the step, 1 / (2 c). */
+typedef struct line {
+  wide z, dz, half;
+} line;
+
 /* what the search holds */
 typedef struct sharing {
   const ambulo__muscle_limb *limb;
   const ambulo__prices *prices;
-  fiber *fibers;                       /* [count] */
+  fiber *fibers; /* [count] */
+  pulling *pullings;
+  line *lines;
   wide needed[limb_slots];             /* P */
   wide size;                           /* the largest of them */
   wide multiplier[limb_slots];         /* L */
@@ -59,15 +71,12 @@ AMBULO__INLINE void clear_factor(sharing *x, double share) {
 }
 
 /* factor += weight G G' of a muscle */
-AMBULO__INLINE void add_curvature(sharing *x, const ambulo__strand *s, const fiber *f,
+AMBULO__INLINE void add_curvature(sharing *x, const ambulo__strand *s, const wide *pull,
                                   wide weight) {
-  wide pull = f->active * f->active * weight;
   for (int i = 0; i < s->span; i++) {
-    wide row = pull * f->arm[i];
-    for (int k = 0; k <= i; k++) {
-      int a = s->slots[i], b = s->slots[k]; /* slots rise */
-      x->factor[a][b] += row * f->arm[k];
-    }
+    wide row = weight * pull[i];
+    for (int k = 0; k <= i; k++)
+      x->factor[s->slots[i]][s->slots[k]] += row * pull[k]; /* slots rise */
   }
 }
 
@@ -95,10 +104,10 @@ AMBULO__INLINE void solve_factor(const sharing *x, wide *v) {
   }
 }
 
-AMBULO__INLINE wide along_pull(const ambulo__strand *s, const fiber *f, const wide *v) {
-  wide sum = spread(0.0);
-  for (int i = 0; i < s->span; i++) sum += f->arm[i] * v[s->slots[i]];
-  return sum * f->active;
+AMBULO__INLINE wide along_pull(const ambulo__strand *s, const wide *pull, const wide *v) {
+  wide sum = pull[0] * v[s->slots[0]];
+  for (int i = 1; i < s->span; i++) sum += pull[i] * v[s->slots[i]];
+  return sum;
 }
 
 /* activation at z; *inside: where it follows z */
@@ -110,11 +119,22 @@ AMBULO__INLINE wide activation_at(wide z, wide half, wide_bits *inside) {
 
 AMBULO__INLINE void start(sharing *x) {
   const ambulo__muscle_limb *limb = x->limb;
+  const int n = limb->coordinate_count;
+  x->size = spread(0.0);
+  for (int j = 0; j < n; j++) x->size = larger(x->size, absolute(x->needed[j]));
   clear_factor(x, 0.5);
-  for (int i = 0; i < limb->count; i++)
-    add_curvature(x, &limb->strands[i], &x->fibers[i], 0.25 / x->fibers[i].square);
+  for (int i = 0; i < limb->count; i++) {
+    const ambulo__strand *s = &limb->strands[i];
+    const fiber *f = &x->fibers[i];
+    pulling *p = &x->pullings[i];
+    for (int k = 0; k < s->span; k++) p->pull[k] = f->arm[k] * f->active;
+    p->linear = f->linear;
+    p->piece = spread(-1.0);
+    x->lines[i].half = 0.5 / f->square;
+    add_curvature(x, s, p->pull, 0.5 * x->lines[i].half);
+  }
   factorize(x);
-  for (int j = 0; j < limb->coordinate_count; j++) x->multiplier[j] = x->needed[j];
+  for (int j = 0; j < n; j++) x->multiplier[j] = x->needed[j];
   solve_factor(x, x->multiplier);
 }
 
@@ -129,17 +149,16 @@ AMBULO__INLINE wide_bits look(sharing *x) {
     x->slope[j] = x->needed[j] - x->multiplier[j] * (0.5 / x->prices->reserve[j]);
   for (int i = 0; i < limb->count; i++) {
     const ambulo__strand *s = &limb->strands[i];
-    fiber *f = &x->fibers[i];
-    wide half = 0.5 / f->square;
+    pulling *p = &x->pullings[i];
+    line *l = &x->lines[i];
     wide_bits inside;
-    f->z = along_pull(s, f, x->multiplier) - f->linear;
-    f->a = activation_at(f->z, half, &inside);
-    wide piece = choose(inside, spread(0.5), f->a);
-    passed |= below(piece, f->piece) | below(f->piece, piece);
-    f->piece = piece;
-    add_curvature(x, s, f, choose(inside, half, spread(0.0)));
-    wide pull = f->a * f->active;
-    for (int k = 0; k < s->span; k++) x->slope[s->slots[k]] -= pull * f->arm[k];
+    l->z = along_pull(s, p->pull, x->multiplier) - p->linear;
+    p->a = activation_at(l->z, l->half, &inside);
+    wide piece = choose(inside, spread(0.5), p->a);
+    passed |= below(piece, p->piece) | below(p->piece, piece);
+    p->piece = piece;
+    add_curvature(x, s, p->pull, choose(inside, l->half, spread(0.0)));
+    for (int k = 0; k < s->span; k++) x->slope[s->slots[k]] -= p->a * p->pull[k];
   }
   for (int j = 0; j < limb->coordinate_count; j++)
     passed |= below(enough * x->size, absolute(x->slope[j]));
@@ -150,12 +169,11 @@ AMBULO__INLINE wide_bits look(sharing *x) {
 AMBULO__INLINE wide along_step(const sharing *x, wide t, wide rise, wide bend, wide *falls) {
   wide h = rise - t * bend, slope = -bend;
   for (int i = 0; i < x->limb->count; i++) {
-    const fiber *f = &x->fibers[i];
-    wide half = 0.5 / f->square;
+    const line *l = &x->lines[i];
     wide_bits inside;
-    wide a = activation_at(f->z + t * f->dz, half, &inside);
-    h -= a * f->dz;
-    slope -= choose(inside, half, spread(0.0)) * f->dz * f->dz;
+    wide a = activation_at(l->z + t * l->dz, l->half, &inside);
+    h -= a * l->dz;
+    slope -= choose(inside, l->half, spread(0.0)) * l->dz * l->dz;
   }
   *falls = slope;
   return h;
@@ -178,7 +196,7 @@ AMBULO__INLINE wide_bits move(sharing *x, wide_bits *go) {
   }
   *go &= below(nothing * value, first);
   for (int i = 0; i < limb->count; i++)
-    x->fibers[i].dz = along_pull(&limb->strands[i], &x->fibers[i], x->step);
+    x->lines[i].dz = along_pull(&limb->strands[i], x->pullings[i].pull, x->step);
   wide low = spread(0.0), high = spread(1e300), t = spread(1.0), falls;
   for (int k = 0; k < most_trials; k++) {
     wide h = along_step(x, t, rise, bend, &falls);
@@ -201,9 +219,6 @@ AMBULO__INLINE wide climb(sharing *x) {
   const int n = x->limb->coordinate_count;
   wide steps = spread(0.0);
   wide_bits go = ~(wide_bits){0}, partly = go;
-  for (int i = 0; i < x->limb->count; i++) x->fibers[i].piece = spread(-1.0);
-  x->size = spread(0.0);
-  for (int j = 0; j < n; j++) x->size = larger(x->size, absolute(x->needed[j]));
   start(x);
   for (int k = 0; k < most_steps; k++) {
     go &= look(x) | partly;
@@ -222,8 +237,8 @@ AMBULO__INLINE wide cost_of(const sharing *x) {
   for (int j = 0; j < x->limb->coordinate_count; j++)
     cost += x->multiplier[j] * (x->needed[j] - x->multiplier[j] * (0.25 / x->prices->reserve[j]));
   for (int i = 0; i < x->limb->count; i++) {
-    const fiber *f = &x->fibers[i];
-    cost -= f->a * (f->z - f->square * f->a);
+    wide a = x->pullings[i].a;
+    cost -= a * (x->lines[i].z - x->fibers[i].square * a);
   }
   return cost;
 }

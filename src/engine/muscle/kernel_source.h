@@ -40,10 +40,11 @@ typedef struct slopes {
 AMBULO__INLINE void add_slopes(const sharing *x, int muscle, const wide *qd, slopes *by) {
   const ambulo__strand *s = &x->limb->strands[muscle];
   const fiber *f = &x->fibers[muscle];
-  wide arm = spread(0.0), force = f->active * f->a + f->passive;
+  const wide a = x->pullings[muscle].a, force = f->active * a + f->passive;
+  wide arm = spread(0.0);
   for (int i = 0; i < s->span; i++) arm += x->multiplier[s->slots[i]] * f->arm[i];
-  wide by_y = f->a * (f->linear_y + f->a * f->square_y) - arm * (f->a * f->active_y + f->passive_y);
-  wide by_v = f->a * (f->linear_v - arm * f->active_v);
+  wide by_y = a * (f->linear_y + a * f->square_y) - arm * (a * f->active_y + f->passive_y);
+  wide by_v = a * (f->linear_v - arm * f->active_v);
   for (int i = 0; i < s->span; i++) {
     wide turned = spread(0.0), moved = spread(0.0); /* H L, H qd */
     for (int k = 0; k < s->span; k++) {
@@ -84,6 +85,8 @@ AMBULO__INLINE void share_part(const ambulo__muscle_limb *limb, const ambulo__pr
                                const ambulo__share_block *b, int lane) {
   const int n = limb->coordinate_count;
   sharing x = {.limb = limb, .prices = prices, .fibers = (fiber *)b->scratch};
+  x.pullings = (pulling *)(x.fibers + limb->count);
+  x.lines = (line *)(x.pullings + limb->count);
   wide powers[limb_slots][3][AMBULO__POWERS], qd[limb_slots], tau_rate = spread(0.0);
   stretch pulled = {spread(0.0), spread(0.0), spread(0.0), spread(0.0)};
   for (int j = 0; j < n; j++) {
@@ -106,15 +109,16 @@ AMBULO__INLINE void share_part(const ambulo__muscle_limb *limb, const ambulo__pr
   store_slopes(&x, qd, &pulled, tau_rate, b, lane);
   for (int i = 0; i < limb->count; i++) {
     const fiber *f = &x.fibers[i];
-    store(b->activation + i * AMBULO__LANES + lane, f->a);
-    store(b->force + i * AMBULO__LANES + lane, f->active * f->a + f->passive);
+    const wide a = x.pullings[i].a;
+    store(b->activation + i * AMBULO__LANES + lane, a);
+    store(b->force + i * AMBULO__LANES + lane, f->active * a + f->passive);
     store(b->length + i * AMBULO__LANES + lane, f->length);
     store(b->speed + i * AMBULO__LANES + lane, f->speed);
   }
 }
 
 static size_t scratch_of(const ambulo__muscle_limb *limb) {
-  return (size_t)limb->count * sizeof(fiber) / sizeof(double);
+  return (size_t)limb->count * (sizeof(fiber) + sizeof(pulling) + sizeof(line)) / sizeof(double);
 }
 
 static void share(const ambulo__muscle_limb *limb, const ambulo__prices *prices,
