@@ -134,7 +134,7 @@ ARCHIVE := $(OUT)/libambulo$(if $(ENGINE),_engine)$(if $(READERS),_readers).a
 SOURCES := $(sort $(wildcard src/engine/*/*.c) $(if $(ENGINE),,$(wildcard src/files/*/*.c)) \
   $(if $(ENGINE)$(READERS),,$(wildcard src/*/*.c)))
 ifeq ($(X86),)
-  SOURCES := $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))
+  SOURCES := $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c src/engine/muscle/kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
@@ -487,7 +487,7 @@ LINT := format static order size symbols hardening abi callers mirror headers in
 FORMATTED = $(wildcard include/ambulo/*.h include/ambulo/tools/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
-TIDY_SOURCES = $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c,$(SOURCES))
+TIDY_SOURCES = $(filter-out src/engine/mechanics/kernels_avx%.c src/engine/linear/band_kernels_avx%.c src/engine/muscle/kernels_avx%.c,$(SOURCES))
 
 lint: build/.ready-lint
 	+@failed=; for part in $(LINT); do echo "lint-$$part"; \

@@ -8,8 +8,8 @@
 #   - the program includes and links only public names and its own.
 set -u
 objects=$1
-order=(base model trajectory mechanics contact problem linear method solver formats definitions people
-  exchange show study cli)
+order=(base model trajectory mechanics muscle contact problem linear method solver formats definitions
+  people exchange show study cli)
 faults=0
 
 fault() {

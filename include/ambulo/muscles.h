@@ -1,4 +1,4 @@
-/* ambulo/muscles.h - muscles on a skeleton: who pulls, and what it costs.
+/* ambulo/muscles.h - muscles on a skeleton: force, sharing of torques and cost.
  *
  * A muscle spans one to four coordinates. Its length is a polynomial in them, so that moment arms
  * and their derivatives are exact:
@@ -41,11 +41,12 @@ enum { AMBULO_MUSCLE_COORDINATES = 4, AMBULO_MUSCLE_EXPONENT = 6 }; /* at most *
 typedef struct ambulo_muscle_pull {
   const char *joint; /* its name, "hip_r"; the same for all muscles that cross it */
   int link;          /* below the joint */
-  int axes; /* the link whose frame has the axes */
+  int axes;          /* the link whose frame has the axes */
   int term_count;
   const unsigned char (*exponents)[AMBULO_MUSCLE_COORDINATES]; /* [term_count] */
   const double (*slopes)[3];                                   /* [term_count] x, y, z, m/m */
 } ambulo_muscle_pull;
+AMBULO_DEFAULT(ambulo_muscle_pull); /* links that must be set */
 
 typedef struct ambulo_muscle {
   const char *name;      /* unique */
@@ -76,7 +77,7 @@ AMBULO_DEFAULT(ambulo_muscle);
 
 /* Arrays are borrowed during the call only. */
 typedef struct ambulo_muscles_definition {
-  size_t size, muscle_size; /* set by ambulo_muscles_definition_default() */
+  size_t size, muscle_size, pull_size; /* set by ambulo_muscles_definition_default() */
   const char *name;
   const char *source; /* credits and licence, carried to results; "" */
   const ambulo_muscle *muscles;
@@ -87,6 +88,7 @@ static inline ambulo_muscles_definition ambulo_muscles_definition_default(void) 
   ambulo_muscles_definition usual;
   usual.size = sizeof usual;
   usual.muscle_size = sizeof(ambulo_muscle);
+  usual.pull_size = sizeof(ambulo_muscle_pull);
   ambulo_defaults("ambulo_muscles_definition", &usual, sizeof usual);
   return usual;
 }
@@ -104,13 +106,9 @@ AMBULO_API void ambulo_muscles_free(ambulo_muscles *muscles); /* accepts NULL */
 /* Pointers belong to the muscles. Out-of-range indices give NULL; names that do not exist -1. */
 AMBULO_API const char *ambulo_muscles_name(const ambulo_muscles *muscles);
 AMBULO_API const char *ambulo_muscles_source(const ambulo_muscles *muscles);
-AMBULO_API const ambulo_model *ambulo_muscles_model(const ambulo_muscles *muscles);
 AMBULO_API int ambulo_muscles_count(const ambulo_muscles *muscles);
 AMBULO_API const ambulo_muscle *ambulo_muscles_get(const ambulo_muscles *muscles, int index);
 AMBULO_API int ambulo_muscles_find(const ambulo_muscles *muscles, const char *name);
-AMBULO_API int ambulo_muscles_limb_count(const ambulo_muscles *muscles);
-/* 1: muscles span the coordinate. */
-AMBULO_API int ambulo_muscles_span(const ambulo_muscles *muscles, int coordinate);
 
 /* Prices of the sharing. With the mass m, the stature H and the gravity g of the body, the volume
  * share w_i = V_i / sum V (V = F_max l_o), the metabolic power W_i(a_i) of muscle i, and what no
@@ -131,6 +129,16 @@ typedef struct ambulo_sharing {
 } ambulo_sharing;
 AMBULO_DEFAULT(ambulo_sharing);
 
+/* n states, d coordinates of the model. Torques of coordinates that no muscle spans are not looked
+ * at. */
+typedef struct ambulo_sharing_states {
+  size_t size; /* set by ambulo_sharing_states_default() */
+  int count;   /* n >= 1 */
+  const double *q, *qd, *tau;
+  const double *tau_rate; /* dtau/dt, which moves elastic tendons; NULL: 0 */
+} ambulo_sharing_states;
+AMBULO_DEFAULT(ambulo_sharing_states); /* 0, NULL: must be set */
+
 /* Where results of a sharing go, n times, d coordinates of the model, m muscles; NULL: not wanted.
  * Gradients are those of the cost, exact by its multipliers. */
 typedef struct ambulo_sharing_outputs {
@@ -146,14 +154,13 @@ typedef struct ambulo_sharing_outputs {
 } ambulo_sharing_outputs;
 AMBULO_DEFAULT(ambulo_sharing_outputs); /* NULL */
 
-/* Shares torques at n >= 1 states, each [n][d]; tau_rate = dtau/dt moves elastic tendons, NULL: 0.
- * Torques of coordinates that no muscle spans are not looked at. There is always a sharing: what
- * muscles cannot do is reserve. `allocator` may be NULL. Errors: E_ARGUMENT, E_NUMERIC (an input
- * is not finite; outputs are then untouched), E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_muscles_share(
-    const ambulo_muscles *muscles, const ambulo_sharing *sharing, const ambulo_allocator *allocator,
-    int n, const double *q, const double *qd, const double *tau, const double *tau_rate,
-    const ambulo_sharing_outputs *outputs);
+/* Shares torques. There is always a sharing: what muscles cannot do is reserve. `allocator` may be
+ * NULL. Errors: E_ARGUMENT, E_NUMERIC (an input is not finite; outputs are then untouched),
+ * E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_muscles_share(const ambulo_muscles *muscles, const ambulo_sharing *sharing,
+                     const ambulo_sharing_states *states, const ambulo_allocator *allocator,
+                     const ambulo_sharing_outputs *outputs);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,5 @@
-/* cli/cmd_muscles.c - ambulo muscles: who pulled in a motion, what joints bore, what it cost. */
+/* cli/cmd_muscles.c - ambulo muscles: activations, contact forces and metabolic power of a motion.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>

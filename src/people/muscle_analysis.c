@@ -119,8 +119,13 @@ static ambulo_status share(ambulo_muscle_analysis *a) {
   out.speed = a->speed;
   out.reserve = a->reserve;
   find_rates(a);
-  return ambulo_muscles_share(a->muscles, &sharing, &a->allocator, a->values.rows, a->q, a->qd,
-                              a->tau, a->tau_rate, &out);
+  ambulo_sharing_states states = ambulo_sharing_states_default();
+  states.count = a->values.rows;
+  states.q = a->q;
+  states.qd = a->qd;
+  states.tau = a->tau;
+  states.tau_rate = a->tau_rate;
+  return ambulo_muscles_share(a->muscles, &sharing, &states, &a->allocator, &out);
 }
 
 double ambulo__muscle_integral(const ambulo_muscle_analysis *a, const double *values,

@@ -28,7 +28,7 @@ static void list_quantities(const ambulo_muscle_values *v, quantity list[QUANTIT
 static int column_count(const ambulo_muscle_analysis *a) {
   int count = 1 + QUANTITIES * a->muscles->count + 3 * a->values.joints;
   for (int c = 0; c < a->muscles->model->coordinate_count; c++)
-    count += ambulo_muscles_span(a->muscles, c);
+    count += ambulo__muscles_span(a->muscles, c);
   return count;
 }
 
@@ -41,7 +41,7 @@ static void put_names(const ambulo_muscle_analysis *a, char between, ambulo__tex
       ambulo__text_append_format(text, "%c%s.%s", between, list[k].name,
                                  a->muscles->muscles[i].name);
   for (int c = 0; c < a->muscles->model->coordinate_count; c++)
-    if (ambulo_muscles_span(a->muscles, c))
+    if (ambulo__muscles_span(a->muscles, c))
       ambulo__text_append_format(text, "%creserve.%s", between,
                                  a->muscles->model->coordinates[c].name);
   for (int j = 0; j < a->values.joints; j++)
@@ -65,7 +65,7 @@ static void put_row(const ambulo_muscle_analysis *a, int row, char between,
   for (int q = 0; q < QUANTITIES; q++)
     for (size_t i = 0; i < m; i++) put_number(text, between, list[q].values[k * m + i]);
   for (size_t c = 0; c < d; c++)
-    if (ambulo_muscles_span(a->muscles, (int)c))
+    if (ambulo__muscles_span(a->muscles, (int)c))
       put_number(text, between, a->values.reserve[k * d + c]);
   for (size_t i = 0; i < 3 * j; i++) put_number(text, between, a->values.contact[k * 3 * j + i]);
   ambulo__text_append_char(text, '\n');
@@ -171,7 +171,7 @@ static void put_reserves(ambulo__json *json, const ambulo_muscle_analysis *a) {
   const ambulo_model *model = a->muscles->model;
   ambulo__json_open(json, "reserves", '{');
   for (int c = 0; c < model->coordinate_count; c++) {
-    if (!ambulo_muscles_span(a->muscles, c)) continue;
+    if (!ambulo__muscles_span(a->muscles, c)) continue;
     ambulo__json_number(
         json, model->coordinates[c].name,
         peak_of(&a->values, a->values.reserve, (size_t)model->coordinate_count, (size_t)c, 1)

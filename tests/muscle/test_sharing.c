@@ -40,9 +40,8 @@ static void share(const leg *l, const ambulo_sharing *prices, shared *s) {
   out.by_tau = s->by_tau;
   out.by_tau_rate = s->by_rate;
   out.steps = s->steps;
-  assert_int_equal(
-      ambulo_muscles_share(l->muscles, prices, NULL, nodes, s->q, s->qd, s->tau, s->rate, &out),
-      AMBULO_OK);
+  const ambulo_sharing_states states = {sizeof states, nodes, s->q, s->qd, s->tau, s->rate};
+  assert_int_equal(ambulo_muscles_share(l->muscles, prices, &states, NULL, &out), AMBULO_OK);
 }
 
 static void node_of(const leg *l, const shared *s, const ambulo_sharing *prices, int k,
@@ -245,8 +244,8 @@ static void one_muscle_bears_what_it_can(void **state) {
   out.reserve = e;
   out.length = &n;
   for (tau[2] = -20.0; tau[2] <= 150.0; tau[2] += 10.0) {
-    assert_int_equal(ambulo_muscles_share(l.muscles, &prices, NULL, 1, q, qd, tau, NULL, &out),
-                     AMBULO_OK);
+    const ambulo_sharing_states states = {sizeof states, 1, q, qd, tau, NULL};
+    assert_int_equal(ambulo_muscles_share(l.muscles, &prices, &states, NULL, &out), AMBULO_OK);
     assert_close(0.05 * force + e[2], tau[2], 1e-9);
     if (tau[2] > 5.0 && tau[2] < 95.0) assert_true(a > 0.0 && a < 1.0 && fabs(e[2]) < 1e-3);
     if (tau[2] < 0.0) assert_true(a == 0.0);

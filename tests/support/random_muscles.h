@@ -198,7 +198,7 @@ static inline double complex leg_lagrangian(const leg *l, const leg_state *x, co
   double complex sum = 0.0, force;
   for (int i = 0; i < leg_m; i++) sum += leg_part(l, i, x, s, prices, &force);
   for (int c = 0; c < leg_d; c++)
-    if (ambulo_muscles_span(l->muscles, c))
+    if (ambulo__muscles_span(l->muscles, c))
       sum += prices->reserve / (unit * unit) * s->e[c] * s->e[c] + s->L[c] * (x->tau[c] - s->e[c]);
   return sum;
 }

@@ -1,4 +1,4 @@
-/* ambulo/tools/muscle_analysis.h - who pulled in a motion, what the joints bore, what it cost
+/* ambulo/tools/muscle_analysis.h - activations, contact forces and metabolic power of a motion
  * (docs/guide-muscles.md).
  *
  * The motion is a table of `ambulo solve` (motion.csv) or of `ambulo inverse`: columns q.*, qd.*,

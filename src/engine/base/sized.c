@@ -115,8 +115,10 @@ static const ambulo__usual rows[] = {
                    {-INFINITY, INFINITY},
                    {-INFINITY, INFINITY},
                    {-INFINITY, INFINITY}}}),
-    ROW(ambulo_muscles_definition, 2, {.name = "muscles", .source = ""}),
+    ROW(ambulo_muscle_pull, 0, {.link = NOT_GIVEN, .axes = NOT_GIVEN}),
+    ROW(ambulo_muscles_definition, 3, {.name = "muscles", .source = ""}),
     ROW(ambulo_sharing, 1, {.activation = 1.0, .reserve = 0.2, .by_volume = 1}),
+    ROW(ambulo_sharing_states, 1, {0}),
     ROW(ambulo_sharing_outputs, 1, {0}),
 };
 

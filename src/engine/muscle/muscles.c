@@ -136,7 +136,8 @@ ambulo_status ambulo_muscles_create(const ambulo_model *model,
   ambulo_muscles_definition own;
   if (!model || !definition || !muscles ||
       !AMBULO__OWN(ambulo_muscles_definition, &own, definition) || !own.name || !own.source ||
-      own.muscle_count < 0 || !ambulo__sized_item(own.muscle_size, sizeof(ambulo_muscle)))
+      own.muscle_count < 0 || !ambulo__sized_item(own.muscle_size, sizeof(ambulo_muscle)) ||
+      own.pull_size != sizeof(ambulo_muscle_pull))
     return AMBULO_E_ARGUMENT;
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
   void *longer = NULL;
@@ -171,10 +172,6 @@ const char *ambulo_muscles_source(const ambulo_muscles *muscles) {
   return muscles ? muscles->source : NULL;
 }
 
-const ambulo_model *ambulo_muscles_model(const ambulo_muscles *muscles) {
-  return muscles ? muscles->model : NULL;
-}
-
 int ambulo_muscles_count(const ambulo_muscles *muscles) {
   return muscles ? muscles->count : 0;
 }
@@ -189,12 +186,8 @@ int ambulo_muscles_find(const ambulo_muscles *muscles, const char *name) {
   return -1;
 }
 
-int ambulo_muscles_limb_count(const ambulo_muscles *muscles) {
-  return muscles ? muscles->limb_count : 0;
-}
-
-int ambulo_muscles_span(const ambulo_muscles *muscles, int coordinate) {
-  for (int i = 0; muscles && i < muscles->limb_count; i++)
+int ambulo__muscles_span(const ambulo_muscles *muscles, int coordinate) {
+  for (int i = 0; i < muscles->limb_count; i++)
     for (int j = 0; j < muscles->limbs[i].coordinate_count; j++)
       if (muscles->limbs[i].coordinates[j] == coordinate) return 1;
   return 0;

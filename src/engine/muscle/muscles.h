@@ -1,6 +1,6 @@
 /* muscle/muscles.h - the inside of ambulo_muscles: limbs as kernels read them.
  *
- * Reading order: ambulo/muscles.h, muscles.h, muscle_check.c, muscles.c, muscle_limbs.c,
+ * Reading order: muscles.h, muscle_check.c, muscles.c, muscle_limbs.c,
  * kernel_functions.h, kernel_fiber.h,
  * kernel_sharing.h, kernel_source.h, sharing.c.
  */
@@ -68,6 +68,8 @@ ambulo_status ambulo__muscles_build(const ambulo_model *model,
                                     const ambulo_muscles_definition *definition,
                                     const ambulo__place *places, const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, ambulo_muscles **muscles);
+/* 1: muscles span the coordinate. */
+int ambulo__muscles_span(const ambulo_muscles *muscles, int coordinate);
 /* Every fault of a definition: muscle_check.c. */
 ambulo_status ambulo__muscles_check(const ambulo_model *model,
                                     const ambulo_muscles_definition *definition,

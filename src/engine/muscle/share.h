@@ -20,15 +20,9 @@ void ambulo__share_free(ambulo__share *share);
 ambulo__prices ambulo__share_prices(const ambulo_muscles *muscles, const ambulo_sharing *sharing,
                                     const ambulo__muscle_limb *limb);
 
-/* [nodes][d] of the model; tau_rate may be NULL */
-typedef struct ambulo__share_states {
-  int nodes;
-  const double *q, *qd, *tau, *tau_rate;
-} ambulo__share_states;
-
 /* One limb at the eight nodes from `first`. *block points into the memory of `share`, until the
  * next call. */
-void ambulo__share_limb(ambulo__share *share, int limb, const ambulo__share_states *states,
+void ambulo__share_limb(ambulo__share *share, int limb, const ambulo_sharing_states *states,
                         int first, ambulo__share_block *block);
 
 #endif

@@ -140,7 +140,7 @@ static void put(const ambulo_muscles *m, const ambulo__muscle_limb *limb,
   }
 }
 
-void ambulo__share_limb(ambulo__share *share, int limb, const ambulo__share_states *states,
+void ambulo__share_limb(ambulo__share *share, int limb, const ambulo_sharing_states *states,
                         int first, ambulo__share_block *block) {
   const ambulo__muscle_limb *l = &share->muscles->limbs[limb];
   ambulo__prices prices = ambulo__share_prices(share->muscles, &share->sharing, l);
@@ -149,7 +149,7 @@ void ambulo__share_limb(ambulo__share *share, int limb, const ambulo__share_stat
   point_into(share, l, block, inputs);
   for (int k = 0; k < INPUTS; k++)
     gather(inputs[k], given[k], share->muscles->model->coordinate_count, l->coordinates,
-           l->coordinate_count, first, states->nodes);
+           l->coordinate_count, first, states->count);
   share->kernels->share(l, &prices, block);
 }
 
@@ -158,7 +158,7 @@ void ambulo__share_limb(ambulo__share *share, int limb, const ambulo__share_stat
 static int is_finite(const ambulo_muscles *m, const double *values, int n) {
   const int d = m->model->coordinate_count;
   for (int c = 0; values && c < d; c++) {
-    if (!ambulo_muscles_span(m, c)) continue;
+    if (!ambulo__muscles_span(m, c)) continue;
     for (int k = 0; k < n; k++)
       if (!isfinite(values[(size_t)k * (size_t)d + (size_t)c])) return 0;
   }
@@ -180,29 +180,34 @@ static int prices_are_sane(const ambulo_sharing *s) {
          s->reserve > 0.0 && isfinite(s->activation + s->metabolic + s->reserve);
 }
 
+static int states_are_finite(const ambulo_muscles *m, const ambulo_sharing_states *s) {
+  return is_finite(m, s->q, s->count) && is_finite(m, s->qd, s->count) &&
+         is_finite(m, s->tau, s->count) && is_finite(m, s->tau_rate, s->count);
+}
+
 ambulo_status ambulo_muscles_share(const ambulo_muscles *muscles, const ambulo_sharing *sharing,
-                                   const ambulo_allocator *allocator, int n, const double *q,
-                                   const double *qd, const double *tau, const double *tau_rate,
+                                   const ambulo_sharing_states *states,
+                                   const ambulo_allocator *allocator,
                                    const ambulo_sharing_outputs *outputs) {
   ambulo_sharing own;
+  ambulo_sharing_states given;
   ambulo_sharing_outputs out;
-  if (!muscles || n < 1 || !q || !qd || !tau || !AMBULO__OWN(ambulo_sharing, &own, sharing) ||
-      !outputs || !AMBULO__OWN(ambulo_sharing_outputs, &out, outputs) || !prices_are_sane(&own))
+  if (!muscles || !states || !outputs || !AMBULO__OWN(ambulo_sharing, &own, sharing) ||
+      !AMBULO__OWN(ambulo_sharing_states, &given, states) ||
+      !AMBULO__OWN(ambulo_sharing_outputs, &out, outputs) || given.count < 1 || !given.q ||
+      !given.qd || !given.tau || !prices_are_sane(&own))
     return AMBULO_E_ARGUMENT;
-  if (!is_finite(muscles, q, n) || !is_finite(muscles, qd, n) || !is_finite(muscles, tau, n) ||
-      !is_finite(muscles, tau_rate, n))
-    return AMBULO_E_NUMERIC;
+  if (!states_are_finite(muscles, &given)) return AMBULO_E_NUMERIC;
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
   ambulo__share *share = NULL;
   ambulo_status status = ambulo__share_create(muscles, &own, &a, &share);
   if (status) return status;
-  const ambulo__share_states states = {n, q, qd, tau, tau_rate};
-  clear(muscles, n, &out);
-  for (int first = 0; first < n; first += AMBULO__LANES)
+  clear(muscles, given.count, &out);
+  for (int first = 0; first < given.count; first += AMBULO__LANES)
     for (int i = 0; i < muscles->limb_count; i++) {
       ambulo__share_block block;
-      ambulo__share_limb(share, i, &states, first, &block);
-      put(muscles, &muscles->limbs[i], &block, first, n, &out);
+      ambulo__share_limb(share, i, &given, first, &block);
+      put(muscles, &muscles->limbs[i], &block, first, given.count, &out);
     }
   ambulo__share_free(share);
   return AMBULO_OK;
