@@ -28,6 +28,7 @@ compare() {
     sed -E 's/^\| ([^|]*) \|.*/\1/' | grep -oE '`[a-z_]+`' | tr -d '`' | sort -u)
 }
 
+compare docs/muscles-format.md src/files/definitions/muscle_file.c src/files/formats/yaml_load.c
 compare docs/model-format.md src/files/definitions/model_*.c src/files/formats/yaml_load.c
 compare docs/problem-format.md src/files/definitions/problem_*.c src/engine/problem/members.c src/files/formats/yaml_load.c
 # shellcheck disable=SC2046 # of fit_*.c, those that read and write other files

@@ -21,6 +21,7 @@ page() { # NAME ABOUT PAGE
 }
 page problem 'problem files: what a motion has to do' problem-format
 page model 'model files: skeletons' model-format
+page muscles 'muscles files: muscles on the joints of a skeleton' muscles-format
 page batch 'sweep files, and the folders of batches' batch-format
 page results 'what is written into a result folder' results
 

@@ -77,7 +77,7 @@ AMBULO_DEFAULT(ambulo_muscle);
 
 /* Arrays are borrowed during the call only. */
 typedef struct ambulo_muscles_definition {
-  size_t size, muscle_size, pull_size; /* set by ambulo_muscles_definition_default() */
+  size_t size, muscle_size, muscle_pull_size; /* set by ambulo_muscles_definition_default() */
   const char *name;
   const char *source; /* credits and licence, carried to results; "" */
   const ambulo_muscle *muscles;
@@ -88,7 +88,7 @@ static inline ambulo_muscles_definition ambulo_muscles_definition_default(void) 
   ambulo_muscles_definition usual;
   usual.size = sizeof usual;
   usual.muscle_size = sizeof(ambulo_muscle);
-  usual.pull_size = sizeof(ambulo_muscle_pull);
+  usual.muscle_pull_size = sizeof(ambulo_muscle_pull);
   ambulo_defaults("ambulo_muscles_definition", &usual, sizeof usual);
   return usual;
 }

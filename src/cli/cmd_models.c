@@ -17,10 +17,13 @@
 
 /* ----------------------------------------------------------------------- models */
 
-static const char *const file_kinds[] = {"problem", "model", "sweep", "fit", "table"};
-static const char *const titles[] = {"problems (ambulo solve NAME)", "models (ambulo info NAME)",
+static const char *const file_kinds[] = {"problem", "model", "sweep", "fit", "muscles", "table"};
+static const char *const titles[] = {"problems (ambulo solve NAME)",
+                                     "models (ambulo info NAME)",
                                      "sweeps (ambulo batch NAME -o DIR)",
-                                     "fits (ambulo fit NAME -o DIR)", "tables that problems name"};
+                                     "fits (ambulo fit NAME -o DIR)",
+                                     "muscles (ambulo muscles BODY MOTION --muscles NAME)",
+                                     "tables that problems name"};
 enum { FILE_KINDS = sizeof file_kinds / sizeof file_kinds[0], PATH = 4096 };
 
 /* its name without ".yaml", under which it is found, too */
@@ -49,7 +52,8 @@ static int list_models(const ambulo__cli_input *input) {
     if (strcmp(wanted, file_kinds[k]) == 0) only = k;
   if (wanted && only < 0)
     return ambulo__cli_usage_error(
-        "models", NULL, "unknown kind '%s'; expected problem, model, sweep, fit or table", wanted);
+        "models", NULL, "unknown kind '%s'; expected problem, model, sweep, fit, muscles or table",
+        wanted);
   ambulo__cli_entry *list = NULL;
   int count = ambulo__cli_catalogue(&list);
   if (count < 0) return ambulo_status_exit_code(AMBULO_E_IO);
@@ -66,7 +70,7 @@ static const ambulo__cli_option models_options[] = {
 
 const ambulo__cli_command ambulo__cli_models = {
     .name = "models",
-    .arguments = "[problem|model|sweep|fit|table]",
+    .arguments = "[problem|model|sweep|fit|muscles|table]",
     .summary = "list the shipped models and problems",
     .description =
         "Lists the shipped files with the first sentence of their comments. Every command finds\n"

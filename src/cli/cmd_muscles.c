@@ -97,9 +97,9 @@ static int run(const ambulo__cli_input *input) {
   ambulo_status status = AMBULO_OK;
   char *text = NULL;
   find_motion(input->arguments[1], &j);
-  if (file)
+  if (file && !ambulo__cli_find_file(file, j.file, sizeof j.file))
     ambulo__cli_format(j.file, sizeof j.file, "%s", file);
-  else if (!ambulo__cli_shipped_file("leg_muscles.yaml", j.file, sizeof j.file))
+  else if (!file && !ambulo__cli_shipped_file("leg_muscles.yaml", j.file, sizeof j.file))
     ambulo__cli_format(j.file, sizeof j.file, "%s", "leg_muscles.yaml");
   int code = ambulo__cli_body_load(input, input->arguments[0], j.diagnostics, &j.body, &status);
   if (!code) {

@@ -90,7 +90,7 @@ static int is_below(const ambulo_model *model, int link, int cut) {
   return link == cut;
 }
 
-/* what the masses below need less what the ground gives, along the axes of the cut */
+/* (M.7): what the masses below need less what the ground gives, along the axes of the cut */
 static void cut_force(const ambulo__pose *pose, const ambulo__cut *cut, const double *forces,
                       const double *grf, double out[3]) {
   const ambulo_model *model = pose->model;

@@ -31,6 +31,7 @@ static ambulo__metabolic sum_of(const ambulo_muscle *m, const ambulo__fiber_stat
   return all;
 }
 
+/* (M.8) */
 ambulo__metabolic ambulo__bhargava(const ambulo_muscle *m, const ambulo__fiber_state *s) {
   const double quarter = 0.5 * acos(-1.0);
   double by_length = ambulo__force_by_length(s->length), mass = mass_of(m);
@@ -43,6 +44,7 @@ ambulo__metabolic ambulo__bhargava(const ambulo_muscle *m, const ambulo__fiber_s
                     alpha * v);
 }
 
+/* (M.8) */
 ambulo__metabolic ambulo__umberger(const ambulo_muscle *m, const ambulo__fiber_state *s) {
   const double aerobic = 1.5, fastest = 12.0, slowest = fastest / 2.5, a = s->activation;
   double by_length = s->length > 1.0 ? ambulo__force_by_length(s->length) : 1.0;

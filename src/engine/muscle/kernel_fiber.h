@@ -65,7 +65,7 @@ AMBULO__INLINE curve force_by_speed(wide u) {
   return (curve){least + 0.5 * (f + r), 0.5 * (1.0 + f / r) * (d1 * d2) / hypotenuse};
 }
 
-/* a sum of products of powers, with first and second derivatives */
+/* (M.1): a sum of products of powers, with first and second derivatives */
 AMBULO__INLINE wide path_of(const ambulo__strand *s, int span,
                             const wide powers[][3][AMBULO__POWERS], wide *g, wide *h) {
   wide length = spread(0.0);
@@ -155,7 +155,7 @@ AMBULO__INLINE void set_costs(const ambulo__strand *s, const ambulo__prices *pri
   f->linear_v = price * 1.25 * (isometric[2] * shortening - isometric[0] * slope * p->cosine);
 }
 
-/* stretch, stretch_rate: D / (l_s strain) and its rate */
+/* (M.2) (M.3). stretch, stretch_rate: D / (l_s strain) and its rate */
 AMBULO__INLINE void fiber_at(const ambulo__strand *s, const ambulo__prices *prices,
                              const wide powers[][3][AMBULO__POWERS], const wide *qd, wide stretch,
                              wide stretch_rate, fiber *f) {

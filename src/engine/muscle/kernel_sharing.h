@@ -213,8 +213,8 @@ AMBULO__INLINE wide_bits move(sharing *x, wide_bits *go) {
   return below(t, spread(1.0)) | below(spread(1.0), t);
 }
 
-/* To the top of the dual; how many steps each lane took. A whole step that passes no kink ends at
- * the top: the dual is quadratic there. */
+/* (M.4): to the top of the dual; how many steps each lane took. A whole step that passes no kink
+ * ends at the top: the dual is quadratic there. */
 AMBULO__INLINE wide climb(sharing *x) {
   const int n = x->limb->coordinate_count;
   wide steps = spread(0.0);

@@ -14,6 +14,7 @@ typedef struct stretch {
   wide share, slope, bend, rate;
 } stretch;
 
+/* (M.6) */
 AMBULO__INLINE stretch stretch_at(const ambulo__muscle_limb *limb, wide tau, wide tau_rate) {
   const double corner = 0.02;
   wide t = tau / limb->elastic_torque, r = root(t * t + corner * corner);
@@ -37,6 +38,7 @@ typedef struct slopes {
   wide q[limb_slots], qd[limb_slots], stretch, stretch_rate;
 } slopes;
 
+/* (M.5) */
 AMBULO__INLINE void add_slopes(const sharing *x, int muscle, const wide *qd, slopes *by) {
   const ambulo__strand *s = &x->limb->strands[muscle];
   const fiber *f = &x->fibers[muscle];
