@@ -60,12 +60,14 @@ typedef enum ambulo_term_kind {
                               with `tendon` tau_i (qd_i + dtau_i/dt / tendon_i) for tau_i qd_i */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
   AMBULO_UPRIGHT, /* squared horizontal parts of the line point[0] to point[1] over its length */
-  AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
-  AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
-  AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
-  AMBULO_FORCE_RATE,   /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
-                          nodes; needs ground reaction */
-  AMBULO_DEVICE_EFFORT /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
+  AMBULO_GROUND_FORCE,  /* |F / (m g) - n|^2, F the root force, n up */
+  AMBULO_CLEARANCE,     /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
+  AMBULO_USER_SQUARE,   /* function(user, state, gradient)^2 */
+  AMBULO_FORCE_RATE,    /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
+                           nodes; needs ground reaction */
+  AMBULO_DEVICE_EFFORT, /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
+  AMBULO_MUSCLE_EFFORT  /* the least cost at which muscles supply the torques (ambulo/muscles.h);
+                           needs muscles */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
@@ -99,6 +101,8 @@ typedef struct ambulo_term {
   double
       negative; /* n in [0, 1]: price of negative power beside positive (AMBULO_MECHANICAL_POWER);
                    1 */
+  /* of AMBULO_MUSCLE_EFFORT: prices of ambulo_sharing, by volume; 1, 0, 0.2 */
+  double activation, metabolic, reserve;
 } ambulo_term;
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */

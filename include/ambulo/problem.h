@@ -23,6 +23,7 @@
 #include "ambulo/device.h"
 #include "ambulo/ground.h"
 #include "ambulo/hold.h"
+#include "ambulo/muscles.h"
 #include "ambulo/model.h"
 #include "ambulo/objective.h"
 
@@ -234,6 +235,8 @@ typedef struct ambulo_problem_definition {
   int term_count;
   const ambulo_user_row *user_rows;
   int user_row_count;
+  const ambulo_muscles *muscles; /* of the terms that share torques, and of a body with the model's
+                                    coordinates; must outlive the problem. NULL: none */
 } ambulo_problem_definition;
 
 /* One second, 12 equal intervals, cubic B-spline, parts of the body kept apart (collision.h),

@@ -229,6 +229,7 @@ AMBULO__INLINE wide climb(sharing *x) {
     solve_factor(x, x->step);
     partly = move(x, &go);
   }
+  if (any(go)) (void)look(x); /* the factor of the last step gives way to the curvature */
   return steps;
 }
 

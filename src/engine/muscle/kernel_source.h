@@ -83,6 +83,24 @@ AMBULO__INLINE void store_slopes(const sharing *x, const wide *qd, const stretch
   }
 }
 
+/* rows of C^-1, where C C' is the curvature of the dual at its top */
+AMBULO__INLINE void store_rows(sharing *x, const ambulo__share_block *b, int lane) {
+  const int n = x->limb->coordinate_count;
+  wide inverse[limb_slots][limb_slots];
+  factorize(x);
+  for (int k = 0; k < n; k++) {
+    inverse[k][k] = x->factor[k][k];
+    for (int i = k + 1; i < n; i++) {
+      wide sum = spread(0.0);
+      for (int m = k; m < i; m++) sum += x->factor[i][m] * inverse[m][k];
+      inverse[i][k] = -x->factor[i][i] * sum;
+    }
+  }
+  for (int r = 0; r < n; r++)
+    for (int c = 0; c <= r; c++)
+      store(b->rows + (r * (r + 1) / 2 + c) * AMBULO__LANES + lane, inverse[r][c]);
+}
+
 AMBULO__INLINE void share_part(const ambulo__muscle_limb *limb, const ambulo__prices *prices,
                                const ambulo__share_block *b, int lane) {
   const int n = limb->coordinate_count;
@@ -109,6 +127,7 @@ AMBULO__INLINE void share_part(const ambulo__muscle_limb *limb, const ambulo__pr
   store(b->steps + lane, climb(&x));
   store(b->cost + lane, cost_of(&x));
   store_slopes(&x, qd, &pulled, tau_rate, b, lane);
+  store_rows(&x, b, lane);
   for (int i = 0; i < limb->count; i++) {
     const fiber *f = &x.fibers[i];
     const wide a = x.pullings[i].a;

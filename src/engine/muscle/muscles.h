@@ -95,7 +95,8 @@ typedef struct ambulo__share_block {
   double *reserve;                             /* [J] e */
   double *activation, *force, *length, *speed; /* [M] */
   double *steps;                               /* [1] */
-  double *scratch;                             /* as many as the kernels say */
+  double *rows;    /* [J (J + 1) / 2]: of C^-1, A = C C' (kernel_sharing.h) */
+  double *scratch; /* as many as the kernels say */
 } ambulo__share_block;
 
 typedef void ambulo__share_kernel(const ambulo__muscle_limb *limb, const ambulo__prices *prices,

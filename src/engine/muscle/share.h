@@ -20,9 +20,12 @@ void ambulo__share_free(ambulo__share *share);
 ambulo__prices ambulo__share_prices(const ambulo_muscles *muscles, const ambulo_sharing *sharing,
                                     const ambulo__muscle_limb *limb);
 
-/* One limb at the eight nodes from `first`. *block points into the memory of `share`, until the
- * next call. */
-void ambulo__share_limb(ambulo__share *share, int limb, const ambulo_sharing_states *states,
-                        int first, ambulo__share_block *block);
+enum { AMBULO__SHARE_INPUTS = 4 }; /* q, qd, tau, tau_rate */
+
+/* One limb at eight states. *block points into the memory of `share`, until the next limb; the
+ * caller fills inputs[..][coordinates][LANES] before the end. */
+void ambulo__share_begin(ambulo__share *share, int limb, ambulo__share_block *block,
+                         double *inputs[AMBULO__SHARE_INPUTS]);
+void ambulo__share_end(const ambulo__share *share, int limb, const ambulo__share_block *block);
 
 #endif

@@ -23,7 +23,7 @@ static const ambulo__share_kernels *share_kernels(void) {
 /* ------------------------------------------------------------------ workspace */
 
 /* entries of a block, each of LANES numbers: inputs, then outputs */
-enum { INPUTS = 4, SLOPES = 5, PER_MUSCLE = 4, SINGLE = 2 };
+enum { SLOPES = 5, PER_MUSCLE = 4, SINGLE = 2 };
 
 ambulo_status ambulo__share_create(const ambulo_muscles *muscles, const ambulo_sharing *sharing,
                                    const ambulo_allocator *allocator, ambulo__share **created) {
@@ -31,7 +31,8 @@ ambulo_status ambulo__share_create(const ambulo_muscles *muscles, const ambulo_s
   size_t most = 0, scratch = 0;
   for (int i = 0; i < muscles->limb_count; i++) {
     const ambulo__muscle_limb *limb = &muscles->limbs[i];
-    size_t entries = (INPUTS + SLOPES) * (size_t)limb->coordinate_count +
+    size_t j = (size_t)limb->coordinate_count;
+    size_t entries = (AMBULO__SHARE_INPUTS + SLOPES) * j + j * (j + 1) / 2 +
                      PER_MUSCLE * (size_t)limb->count + SINGLE;
     if (entries > most) most = entries;
     if (kernels->scratch(limb) > scratch) scratch = kernels->scratch(limb);
@@ -61,23 +62,31 @@ void ambulo__share_free(ambulo__share *share) {
   ambulo__free(&a, share);
 }
 
-static void point_into(ambulo__share *s, const ambulo__muscle_limb *limb, ambulo__share_block *b,
-                       double **inputs) {
+void ambulo__share_begin(ambulo__share *s, int index, ambulo__share_block *b,
+                         double *inputs[AMBULO__SHARE_INPUTS]) {
+  const ambulo__muscle_limb *limb = &s->muscles->limbs[index];
   size_t j = (size_t)limb->coordinate_count * AMBULO__LANES;
   size_t m = (size_t)limb->count * AMBULO__LANES;
   double *at = s->numbers;
-  for (int k = 0; k < INPUTS; k++, at += j) inputs[k] = at;
+  for (int k = 0; k < AMBULO__SHARE_INPUTS; k++, at += j) inputs[k] = at;
   double **const slopes[] = {&b->by_q, &b->by_qd, &b->by_tau, &b->by_tau_rate, &b->reserve};
   for (int k = 0; k < SLOPES; k++, at += j) *slopes[k] = at;
   double **const each[] = {&b->activation, &b->force, &b->length, &b->speed};
   for (int k = 0; k < PER_MUSCLE; k++, at += m) *each[k] = at;
   b->cost = at;
   b->steps = at + AMBULO__LANES;
+  b->rows = at + SINGLE * AMBULO__LANES;
   b->q = inputs[0];
   b->qd = inputs[1];
   b->tau = inputs[2];
   b->tau_rate = inputs[3];
   b->scratch = s->scratch;
+}
+
+void ambulo__share_end(const ambulo__share *s, int limb, const ambulo__share_block *b) {
+  const ambulo__muscle_limb *l = &s->muscles->limbs[limb];
+  ambulo__prices prices = ambulo__share_prices(s->muscles, &s->sharing, l);
+  s->kernels->share(l, &prices, b);
 }
 
 ambulo__prices ambulo__share_prices(const ambulo_muscles *muscles, const ambulo_sharing *sharing,
@@ -140,17 +149,13 @@ static void put(const ambulo_muscles *m, const ambulo__muscle_limb *limb,
   }
 }
 
-void ambulo__share_limb(ambulo__share *share, int limb, const ambulo_sharing_states *states,
-                        int first, ambulo__share_block *block) {
-  const ambulo__muscle_limb *l = &share->muscles->limbs[limb];
-  ambulo__prices prices = ambulo__share_prices(share->muscles, &share->sharing, l);
-  const double *const given[INPUTS] = {states->q, states->qd, states->tau, states->tau_rate};
-  double *inputs[INPUTS];
-  point_into(share, l, block, inputs);
-  for (int k = 0; k < INPUTS; k++)
-    gather(inputs[k], given[k], share->muscles->model->coordinate_count, l->coordinates,
-           l->coordinate_count, first, states->count);
-  share->kernels->share(l, &prices, block);
+static void fill(const ambulo_muscles *m, const ambulo__muscle_limb *limb,
+                 const ambulo_sharing_states *states, int first,
+                 double *const inputs[AMBULO__SHARE_INPUTS]) {
+  const double *const given[] = {states->q, states->qd, states->tau, states->tau_rate};
+  for (int k = 0; k < AMBULO__SHARE_INPUTS; k++)
+    gather(inputs[k], given[k], m->model->coordinate_count, limb->coordinates,
+           limb->coordinate_count, first, states->count);
 }
 
 /* ------------------------------------------------------------------ all */
@@ -206,7 +211,10 @@ ambulo_status ambulo_muscles_share(const ambulo_muscles *muscles, const ambulo_s
   for (int first = 0; first < given.count; first += AMBULO__LANES)
     for (int i = 0; i < muscles->limb_count; i++) {
       ambulo__share_block block;
-      ambulo__share_limb(share, i, &given, first, &block);
+      double *inputs[AMBULO__SHARE_INPUTS];
+      ambulo__share_begin(share, i, &block, inputs);
+      fill(muscles, &muscles->limbs[i], &given, first, inputs);
+      ambulo__share_end(share, i, &block);
       put(muscles, &muscles->limbs[i], &block, first, given.count, &out);
     }
   ambulo__share_free(share);

@@ -88,6 +88,8 @@ static double composite_term_value(const ambulo_workspace *workspace, const ambu
 double ambulo__term_value(ambulo_workspace *workspace, const ambulo_term *term, double factor,
                           double *slopes) {
   if (ambulo__is_user_term(term)) return user_term_value(workspace, term);
+  const ambulo__term_info *info = ambulo__term_info_of(term->kind);
+  if (info->whole) return info->whole(workspace, term, factor, slopes);
   if (ambulo__term_is_simple(term)) return simple_term_value(workspace, term, factor, slopes);
   return composite_term_value(workspace, term, factor, slopes);
 }

@@ -252,6 +252,12 @@ static const ambulo__member term[] = {
      AMBULO__RATIO, "stiffness of the tendon", AMBULO__TERM_TENDON},
     {NUMBER("negative", negative, 0.0, 1.0, 1.0), EXACT, AMBULO__RATIO,
      "price of negative power of", AMBULO__TERM_NEGATIVE},
+    {NUMBER("activation", activation, 0.0, LARGEST, 1.0), EXACT, AMBULO__RATIO,
+     "price of activation in", AMBULO__TERM_MUSCLES},
+    {NUMBER("metabolic", metabolic, 0.0, LARGEST, 0.0), EXACT, AMBULO__RATIO,
+     "price of metabolic power in", AMBULO__TERM_MUSCLES},
+    {NUMBER("reserve", reserve, 1e-9, LARGEST, 0.2), EXACT, AMBULO__RATIO, "price of reserves in",
+     AMBULO__TERM_MUSCLES},
 };
 TABLE("objective", term);
 #undef OF
@@ -333,6 +339,7 @@ static const ambulo__member definition[] = {
     {COUNTER(term_count)},
     {ITEMS(NULL, user_rows, user_row_count, user_row_size, user_row)},
     {COUNTER(user_row_count)},
+    {BORROWED(muscles)},
 };
 TABLE(NULL, definition);
 #undef OF

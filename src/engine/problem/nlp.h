@@ -54,6 +54,7 @@ struct ambulo_problem {
   ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
   ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
+  ambulo_muscles *owned_muscles;        /* likewise */
   ambulo_model
       *extended_model; /* `model` where capsules have rows (problem/queries.c); else NULL */
   ambulo__pairs pairs; /* what automatic collision came to; all 0 of a problem with others */
@@ -127,8 +128,9 @@ struct ambulo_workspace {
   double *hold_states;    /* [nodes][ambulo__holds_entries] */
   double *bare_force;     /* [nodes][3][d]: of the bodies' own root force by qdd, where `wrench` has
                              what is held too; NULL without holds */
-  ambulo_fault fault;     /* of the last E_NUMERIC */
-  double *fault_scratch;  /* [variables]: while it is looked for */
+  struct ambulo__muscle_effort *muscles; /* NULL without a term of muscles */
+  ambulo_fault fault;                    /* of the last E_NUMERIC */
+  double *fault_scratch;                 /* [variables]: while it is looked for */
   long evaluations, jacobians;
   double seconds_evaluate;
 };

@@ -369,6 +369,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->obstacle_names);
   ambulo__free(&a, p->inputs);
   ambulo_model_free(p->extended_model);
+  ambulo_muscles_free(p->owned_muscles);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p->free);
   ambulo__free(&a, p);

@@ -38,6 +38,7 @@ double ambulo__power_least(double power, double smoothing);
 
 struct ambulo__term_context;
 struct ambulo__form;
+struct ambulo__muscle_effort;
 
 /* What a residual stands for: decides on its channel, its units and its size in another body.
  * Kinds by coordinate have a residual, a scale and a mirror partner for each coordinate. */
@@ -70,7 +71,8 @@ enum {
   AMBULO__TERM_REFERENCE = 1 << 9, /* reference */
   AMBULO__TERM_TENDON = 1 << 10,   /* tendon */
   AMBULO__TERM_CALLBACK = 1 << 11, /* function, user: not in files */
-  AMBULO__TERM_NEGATIVE = 1 << 12  /* negative */
+  AMBULO__TERM_NEGATIVE = 1 << 12, /* negative */
+  AMBULO__TERM_MUSCLES = 1 << 13   /* activation, metabolic, reserve */
 };
 
 /* Which two sides have to agree, with mirrored ends (mirror_terms.c). */
@@ -95,6 +97,10 @@ typedef struct ambulo__term_info {
   int (*forms)(const struct ambulo__term_context *context);
   void (*form)(const ambulo_term *term, const struct ambulo__term_context *context, int node, int j,
                struct ambulo__form *form);
+  /* Of kinds that are no sum over residuals: value and slopes as in ambulo__term_value. Their forms
+   * have a curvature alone, u = 0. */
+  double (*whole)(struct ambulo_workspace *workspace, const ambulo_term *term, double factor,
+                  double *slopes);
   ambulo__term_mirror mirror; /* what mirrored ends ask of it */
   const char *(*lacks)(
       const ambulo_problem_definition *definition); /* what it needs; NULL: nothing */
@@ -153,6 +159,7 @@ typedef struct ambulo__term_context {
   const int *active;   /* [nodes][feet]: contact, or -1 in the air */
   const int *before;   /* the same just before each node, on grids on events; NULL: as active */
   double ground_height;
+  const struct ambulo__muscle_effort *muscles; /* NULL: no such term */
 } ambulo__term_context;
 
 /* 1 if its residuals are those of the interval between a node and the next. */

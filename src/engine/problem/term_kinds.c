@@ -1,7 +1,9 @@
 /* problem/term_kinds.c - the kinds of objective terms: laws of the composite ones, and the table.
  *
  * A new kind is a constant of ambulo_term_kind, a law and a row of the table. */
+#include "model/model.h"
 #include "model/neutral_pose.h"
+#include "problem/muscle_effort.h"
 #include "problem/term.h"
 
 #include <math.h>
@@ -348,6 +350,15 @@ static const char *lacks_devices(const ambulo_problem_definition *d) {
   return d->device_count == 0 ? "there are no devices" : NULL;
 }
 
+static const char *lacks_muscles(const ambulo_problem_definition *d) {
+  int terms = 0;
+  for (int t = 0; t < d->term_count; t++) terms += d->terms[t].kind == AMBULO_MUSCLE_EFFORT;
+  if (!d->muscles) return "there are no muscles; expected a file of them under 'muscles'";
+  if (d->muscles->model->coordinate_count != ambulo_model_coordinate_count(d->model))
+    return "the muscles are of another body";
+  return terms > 1 ? "there are two such terms; expected one" : NULL;
+}
+
 /* name, what a residual is of, phi, members; then what is not 0 */
 static const ambulo__term_info kinds[] = {
     [AMBULO_TORQUE_SQUARED] = {"torque_squared", AMBULO__TERM_OF_TORQUE, AMBULO__TERM_SQUARED,
@@ -388,6 +399,9 @@ static const ambulo__term_info kinds[] = {
     [AMBULO_DEVICE_EFFORT] = {"device_effort", .members = AMBULO__TERM_DEVICES,
                               .forms = each_device, .form = device_effort_form,
                               .mirror = AMBULO__MIRROR_DEVICES, .lacks = lacks_devices},
+    [AMBULO_MUSCLE_EFFORT] = {"muscle_effort", .members = AMBULO__TERM_MUSCLES,
+                              .forms = ambulo__muscle_forms, .form = ambulo__muscle_form,
+                              .whole = ambulo__muscle_value, .lacks = lacks_muscles},
     [AMBULO_USER_TERM] = {"user", .members = AMBULO__TERM_CALLBACK},
     [AMBULO_USER_SQUARE] = {"user_square", .members = AMBULO__TERM_CALLBACK},
 };

@@ -2,6 +2,7 @@
  * problem takes, before it is taken. */
 
 #include "base/machine.h"
+#include "problem/muscle_effort.h"
 #include "problem/nlp.h"
 
 #include <math.h>
@@ -81,6 +82,7 @@ ambulo_status ambulo__workspace_create_for_values(const ambulo_problem *problem,
   w->user_slot = ambulo__alloc(&own, (size_t)problem->rows, sizeof *w->user_slot);
   w->far = ambulo__alloc(&own, (size_t)problem->rows, sizeof *w->far);
   ambulo_status status = w->user_slot && w->far ? allocate(w, 0, VALUE_ARRAYS) : AMBULO_E_MEMORY;
+  if (!status) status = ambulo__muscle_effort_create(problem, &own, &w->muscles);
   if (status) {
     ambulo_workspace_free(w);
     return status;
@@ -111,6 +113,7 @@ void ambulo_workspace_free(ambulo_workspace *w) {
   if (!w) return;
   ambulo_allocator a = w->allocator;
   for (int i = 0; i < ARRAYS; i++) ambulo__free_aligned(&a, w->owned[i]);
+  ambulo__muscle_effort_free(w->muscles);
   ambulo__free(&a, w->user_slot);
   ambulo__free(&a, w->far);
   ambulo__free(&a, w);

@@ -239,6 +239,8 @@ ambulo_status ambulo_solve_refined(const ambulo_problem *problem, const ambulo_o
   if (best && r.problem) { /* the finer problem takes the model over */
     r.problem->owned_model = best->owned_model;
     best->owned_model = NULL;
+    r.problem->owned_muscles = best->owned_muscles;
+    best->owned_muscles = NULL;
     ambulo_problem_free(best);
     best = NULL;
   }

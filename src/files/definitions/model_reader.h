@@ -60,6 +60,12 @@ ambulo_status ambulo__model_load_input(ambulo__inputs *inputs, const char *path,
                                        const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo_model **model);
 
+/* ambulo_muscles_load, and takes the file in. */
+ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *path,
+                                         const ambulo_model *model,
+                                         const ambulo_allocator *allocator,
+                                         ambulo_diagnostics *diagnostics, ambulo_muscles **muscles);
+
 /* Items of an optional sequence, at most `limit`: *count and 1, or 0 after E_LIMIT or E_SCHEMA. */
 int ambulo__read_count(const ambulo__yaml_node *list, const char *what, int limit, int *count);
 

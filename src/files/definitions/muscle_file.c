@@ -6,15 +6,11 @@
  * (mass / mass)^(2/3). Muscles are of one side; `mirror: {_r: _l}` adds each one's mirror image,
  * whose coordinates are those of the model's own mirror image and whose pull along z is reversed.
  */
-#include "ambulo/tools/load.h"
-
 #include <math.h>
 #include <string.h>
 
-#include "base/numtext.h"
+#include "definitions/model_reader.h"
 #include "formats/arena.h"
-#include "formats/inputs.h"
-#include "formats/yaml_node.h"
 #include "mechanics/pose.h"
 #include "muscle/muscles.h"
 
@@ -360,21 +356,36 @@ static ambulo_status read_document(reader *r, const ambulo__yaml *document,
   return status;
 }
 
-ambulo_status ambulo_muscles_load(const char *path, const ambulo_model *model,
-                                  const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo_muscles **muscles) {
-  if (!path || !model || !muscles) return AMBULO_E_ARGUMENT;
+ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *path,
+                                         const ambulo_model *model,
+                                         const ambulo_allocator *allocator,
+                                         ambulo_diagnostics *diagnostics,
+                                         ambulo_muscles **muscles) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   reader r = {.arena = {.allocator = own}, .model = model};
   ambulo_muscles_definition d = ambulo_muscles_definition_default();
   ambulo__yaml *document = NULL;
-  ambulo_status status = ambulo__yaml_load(path, &own, diagnostics, &document);
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status =
+      ambulo__inputs_read(inputs, path, AMBULO__YAML_MAX_BYTES, &own, diagnostics, &text, &length);
+  if (!status) status = ambulo__yaml_load_text(text, length, path, &own, diagnostics, &document);
+  ambulo__free(&own, text);
   if (!status) status = read_document(&r, document, &d);
   if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__yaml_finish(document);
   if (!status) status = ambulo__muscles_build(model, &d, r.places, &own, diagnostics, muscles);
   ambulo__yaml_free(document);
   ambulo__arena_free(&r.arena);
+  return status;
+}
+
+ambulo_status ambulo_muscles_load(const char *path, const ambulo_model *model,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_muscles **muscles) {
+  if (!path || !model || !muscles) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status =
+      ambulo__muscles_load_input(NULL, path, model, allocator, diagnostics, muscles);
   return ambulo__conclude(diagnostics, errors, status, path);
 }

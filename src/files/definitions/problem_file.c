@@ -109,6 +109,20 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   (void)ambulo__yaml_error(node, status, NULL, "the model '%s' could not be loaded", path);
 }
 
+static void read_muscles(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(root, "muscles");
+  const char *name = node ? ambulo__yaml_file_name(node) : "";
+  const char *path = name[0] ? ambulo__reader_path(reader, node, name) : NULL;
+  if (!path || !reader->model) return;
+  ambulo_status status =
+      ambulo__muscles_load_input(&reader->inputs, path, reader->model, &reader->allocator,
+                                 reader->diagnostics, &reader->muscles);
+  reader->definition.muscles = reader->muscles;
+  if (!status) return;
+  reader->failure = status;
+  (void)ambulo__yaml_error(node, status, NULL, "the muscles '%s' could not be loaded", path);
+}
+
 /* the body that the numbers of the file are for; what becomes of them for the subject is
  * ambulo__definition_resize's */
 static void read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
@@ -147,15 +161,16 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   read_written_for(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
   ambulo__read_constraints(reader, ambulo__reader_section(root, "constraints"));
-  static const char *const others[] = {"trajectory",      "contacts",  "ends",
-                                       "objective",       "ground",    "load",
-                                       "ground_reaction", "obstacles", "devices"};
-  for (int i = 0; i < 9; i++) ambulo__yaml_expect(root, others[i]);
+  static const char *const others[] = {"trajectory",      "contacts", "ends",    "objective",
+                                       "ground",          "load",     "devices", "muscles",
+                                       "ground_reaction", "obstacles"};
+  for (int i = 0; i < 10; i++) ambulo__yaml_expect(root, others[i]);
   reader->gait = ambulo__reader_section(root, "gait");
   ambulo__read_time(reader, root);
   if (reader->model) {
     ambulo__read_ground(reader, root);
     ambulo__read_bodies(reader, root);
+    read_muscles(reader, root); /* on the body as it is by now */
     ambulo__read_schedule(reader, root);
     ambulo__read_tubes(reader, root);
     ambulo__read_trajectory(reader, root);
@@ -241,6 +256,8 @@ static ambulo_status create(ambulo__problem_reader *reader, const ambulo__yaml_n
   if (status) return status;
   created->owned_model = reader->model;
   reader->model = NULL;
+  created->owned_muscles = reader->muscles;
+  reader->muscles = NULL;
   created->file_options = reader->options;
   created->keys = reader->keys;
   created->keys.file = 1;

@@ -201,6 +201,14 @@ static void read_members(ambulo__problem_reader *reader, const ambulo__yaml_node
   if (has & AMBULO__TERM_NEGATIVE)
     term->negative =
         ambulo__yaml_number_in(ambulo__yaml_get(node, "negative"), 0.0, 1.0, term->negative);
+  if (has & AMBULO__TERM_MUSCLES) {
+    ambulo__read_member(reader, ambulo__yaml_get(node, "activation"), &ambulo__term_members,
+                        "activation", term);
+    ambulo__read_member(reader, ambulo__yaml_get(node, "metabolic"), &ambulo__term_members,
+                        "metabolic", term);
+    ambulo__read_member(reader, ambulo__yaml_get(node, "reserve"), &ambulo__term_members, "reserve",
+                        term);
+  }
   if (has & AMBULO__TERM_DEVICES)
     term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
   if (has & AMBULO__TERM_HEIGHT)

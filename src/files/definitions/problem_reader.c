@@ -79,6 +79,8 @@ void ambulo__reader_clear(ambulo__problem_reader *reader) {
     block = next;
   }
   reader->blocks = NULL;
+  ambulo_muscles_free(reader->muscles);
+  reader->muscles = NULL;
   ambulo_model_free(reader->model);
   reader->model = NULL;
   ambulo__text_free(&reader->inputs.read);

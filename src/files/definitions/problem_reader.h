@@ -31,6 +31,7 @@ typedef struct ambulo__problem_reader {
   double radians;                /* per unit of angle in the file; 0: not stated */
   int asked_for_unit;            /* the missing unit has been reported */
   ambulo_model *model;           /* NULL if it could not be loaded */
+  ambulo_muscles *muscles;       /* NULL: the file names none */
   const ambulo__yaml_node *gait; /* the section, or NULL */
   const ambulo__yaml_node *grid; /* time.grid, or NULL */
   int has_duration;              /* time.duration is in the file */
