@@ -161,6 +161,15 @@ double ambulo__muscle_value(ambulo_workspace *workspace, const ambulo_term *term
   return sum;
 }
 
+const char *ambulo__muscle_lacks(const ambulo_problem_definition *d) {
+  int terms = 0;
+  for (int t = 0; t < d->term_count; t++) terms += d->terms[t].kind == AMBULO_MUSCLE_EFFORT;
+  if (!d->muscles) return "there are no muscles; expected a file of them under 'muscles'";
+  if (d->muscles->model->coordinate_count != ambulo_model_coordinate_count(d->model))
+    return "the muscles are of another body";
+  return terms > 1 ? "there are two such terms; expected one" : NULL;
+}
+
 /* ------------------------------------------------------------------- curvature */
 
 int ambulo__muscle_forms(const ambulo__term_context *context) {

@@ -1,7 +1,6 @@
 /* problem/term_kinds.c - the kinds of objective terms: laws of the composite ones, and the table.
  *
  * A new kind is a constant of ambulo_term_kind, a law and a row of the table. */
-#include "model/model.h"
 #include "model/neutral_pose.h"
 #include "problem/muscle_effort.h"
 #include "problem/term.h"
@@ -283,15 +282,6 @@ int ambulo__clearance_foot(int j) {
   return j / POINTS_OF_A_FOOT;
 }
 
-double ambulo__air_part(const ambulo__term_context *context, int node, int foot) {
-  int at = node * ambulo_model_foot_count(context->model) + foot, in_air = context->active[at] < 0;
-  if (!context->before || (context->before[at] < 0) == in_air) return in_air;
-  const double *t = context->times;
-  double before = node > 0 ? t[node] - t[node - 1] : 0.0;
-  double after = node + 1 < context->nodes ? t[node + 1] - t[node] : 0.0;
-  return (in_air ? after : before) / (before + after);
-}
-
 static void clearance_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                            int j, ambulo__form *form) {
   int f = ambulo__clearance_foot(j), which = j % POINTS_OF_A_FOOT;
@@ -350,15 +340,6 @@ static const char *lacks_devices(const ambulo_problem_definition *d) {
   return d->device_count == 0 ? "there are no devices" : NULL;
 }
 
-static const char *lacks_muscles(const ambulo_problem_definition *d) {
-  int terms = 0;
-  for (int t = 0; t < d->term_count; t++) terms += d->terms[t].kind == AMBULO_MUSCLE_EFFORT;
-  if (!d->muscles) return "there are no muscles; expected a file of them under 'muscles'";
-  if (d->muscles->model->coordinate_count != ambulo_model_coordinate_count(d->model))
-    return "the muscles are of another body";
-  return terms > 1 ? "there are two such terms; expected one" : NULL;
-}
-
 /* name, what a residual is of, phi, members; then what is not 0 */
 static const ambulo__term_info kinds[] = {
     [AMBULO_TORQUE_SQUARED] = {"torque_squared", AMBULO__TERM_OF_TORQUE, AMBULO__TERM_SQUARED,
@@ -401,7 +382,7 @@ static const ambulo__term_info kinds[] = {
                               .mirror = AMBULO__MIRROR_DEVICES, .lacks = lacks_devices},
     [AMBULO_MUSCLE_EFFORT] = {"muscle_effort", .members = AMBULO__TERM_MUSCLES,
                               .forms = ambulo__muscle_forms, .form = ambulo__muscle_form,
-                              .whole = ambulo__muscle_value, .lacks = lacks_muscles},
+                              .whole = ambulo__muscle_value, .lacks = ambulo__muscle_lacks},
     [AMBULO_USER_TERM] = {"user", .members = AMBULO__TERM_CALLBACK},
     [AMBULO_USER_SQUARE] = {"user_square", .members = AMBULO__TERM_CALLBACK},
 };
