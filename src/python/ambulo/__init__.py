@@ -14,6 +14,7 @@
 ``Result``               the point that was found: verdict, audit, motion, sensitivities
 ``Solver``               one problem again and again, from where it stands
 ``Motion``               arrays, a table, a picture
+``Muscles``              torques shared among muscles, what joints bear, what it costs
 ``inverse_of_file``      inverse dynamics of a measured motion
 ``compare``              a result or a measured motion against people
 ``Batch``, ``Study``     many problems at once, on all cores; the folder that this leaves
@@ -41,6 +42,7 @@ from .fit import Fit, FitReport
 from .mechanics import Gradient, Jacobians, Mechanics
 from .model import InverseDynamics, Model
 from .motion import Motion
+from .muscles import MuscleAnalysis, Muscles, Sharing
 from .problem import Evaluation, Problem
 from .processes import program
 from .records import Enumeration, Record, from_c
@@ -63,7 +65,7 @@ def versions() -> dict:
 __all__ = [
     "AmbuloError", "AmbuloWarning", "Batch", "Enumeration", "Evaluation", "Fit", "FitReport",
     "Gradient", "InverseDynamics", "InverseOfFile", "Iterate", "Jacobians", "MODELS", "Mechanics",
-    "Message", "Model", "Motion", "Problem", "Record", "Result", "Solver", "Study", "StudyCase",
+    "Message", "Model", "Motion", "MuscleAnalysis", "Muscles", "Problem", "Record", "Result", "Sharing", "Solver", "Study", "StudyCase",
     "Verified", "callbacks", "compare", "inverse_of_file", "plots", "program", "to_pandas",
     "versions",
 ] + _record_names
