@@ -29,6 +29,11 @@ static ambulo_status analyse(const ambulo__cli_input *input, job *j, int overwri
   if (!ambulo__cli_number(input, "metabolic", 0.0, 1e6, &options.metabolic) ||
       !ambulo__cli_number(input, "activation", 0.0, 1e6, &options.activation))
     return AMBULO_E_ARGUMENT;
+  if (!(options.metabolic > 0.0 || options.activation > 0.0)) {
+    ambulo__cli_usage_error("muscles", NULL,
+                            "--activation and --metabolic are 0; expected a price above 0");
+    return AMBULO_E_ARGUMENT;
+  }
   ambulo_status status =
       ambulo_muscles_load(j->file, j->body.model, NULL, j->diagnostics, &j->muscles);
   if (!status)
@@ -142,14 +147,13 @@ const ambulo__cli_command ambulo__cli_muscles = {
         "with\n"
         "the columns q, qd, qdd and tau of every coordinate. Subject, slope and load are those of\n"
         "the problem or of the options. See docs/guide-muscles.md.",
-    .example = "ambulo muscles models/walk.yaml walk -o muscles.csv\n"
-               "ambulo inverse model.yaml ik.mot --grf grf.mot --filter 6 -o torques.csv\n"
-               "ambulo muscles model.yaml torques.csv -o muscles.sto",
+    .example = "ambulo solve models/walk.yaml -o walk\n"
+               "ambulo muscles models/walk.yaml walk -o muscles.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 2,
     .maximum = 2,
-    .files = 2,
+    .files = 1,
     .words = "ambulo models --names",
     .run = run,
 };

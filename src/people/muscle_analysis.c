@@ -7,6 +7,7 @@
 
 #include "base/sized.h"
 #include "mechanics/pose.h"
+#include "people/plausibility.h"
 
 static const double shortest = 0.02; /* s: rates of torques are differences over no less */
 
@@ -80,15 +81,22 @@ static void read_forces(ambulo_muscle_analysis *a, const ambulo__motion *motion)
 static ambulo_status read_motion(ambulo_muscle_analysis *a, ambulo_diagnostics *diagnostics) {
   ambulo__motion *motion = NULL;
   ambulo_status status = ambulo__motion_read(a->motion, 0, &a->allocator, diagnostics, &motion);
+  const ambulo__place place = {.file = a->motion};
   if (!status && motion->rows < 2)
-    status = ambulo__error(diagnostics, AMBULO_E_SCHEMA, (ambulo__place){.file = a->motion}, NULL,
-                           "the table has %d rows; expected at least 2", motion->rows);
+    status = ambulo__error(diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                           "the table has one row; expected at least 2");
+  if (!status && motion->in_degrees)
+    status = ambulo__error(diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                           "angles are in degrees; expected a table of 'ambulo solve' or 'ambulo "
+                           "inverse', in radians");
   if (!status) status = allocate(a, motion->rows);
   if (!status) {
     a->values.rows = motion->rows;
     memcpy(a->times, motion->time, (size_t)motion->rows * sizeof *a->times);
     status = read_coordinates(a, motion, diagnostics);
     read_forces(a, motion);
+    ambulo__doubt_body(&(ambulo__doubts){.diagnostics = diagnostics}, a->motion, motion,
+                       a->muscles->model);
   }
   ambulo__motion_free(motion);
   return status;
@@ -268,7 +276,7 @@ ambulo_status ambulo_muscle_analysis_create(const ambulo_muscles *muscles, const
   ambulo_allocator memory = ambulo__allocator_or_default(allocator);
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_muscle_analysis *a = ambulo__alloc(&memory, 1, sizeof *a);
-  if (!a) return AMBULO_E_MEMORY;
+  if (!a) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, motion);
   a->allocator = memory;
   a->muscles = muscles;
   a->options = own;

@@ -66,7 +66,7 @@ ambulo_muscle_analysis_values(const ambulo_muscle_analysis *analysis);
 /* Writes the table: time, activation.M, force.M, fiber_length.M, fiber_speed.M, metabolic.M of each
  * muscle, reserve.C of each coordinate that muscles span, contact.J.x|y|z of each joint; CSV, or in
  * OpenSim's form where the name ends in .sto. Whole or not at all; overwrite = 0 refuses a file
- * that ambulo did not write, and the motion in any case. E_ARGUMENT, E_IO, E_MEMORY. */
+ * that ambulo did not write, and the motion even if it did. E_ARGUMENT, E_IO, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_muscle_analysis_write(const ambulo_muscle_analysis *analysis, const char *output,
                              int overwrite, ambulo_diagnostics *diagnostics);

@@ -9,76 +9,73 @@
 #include <math.h>
 #include <string.h>
 
-#include "definitions/model_reader.h"
-#include "formats/arena.h"
+#include "base/arithmetic.h"
+#include "base/numtext.h"
+#include "definitions/muscle_reader.h"
 #include "mechanics/pose.h"
-#include "muscle/muscles.h"
 
-enum { MOST_JOINTS = 8, MOST_RANGES = 32 };
-
-typedef struct joint {
-  const char *name;
-  int link, axes;
-} joint;
-
-typedef struct reader {
-  ambulo__arena arena;
-  const ambulo_model *model;
-  double length, force; /* factors */
-  const char *suffix[2];
-  joint joints[MOST_JOINTS];
-  int joint_count;
-  struct {
-    int coordinate;
-    double range[2]; /* rad */
-  } ranges[MOST_RANGES];
-  int range_count;
-  ambulo_muscle *muscles; /* [2 count]: the file's, then their mirror images */
-  ambulo__place *places;
-  int count;
-} reader;
+enum { MOST_NAMES = 256 };
 
 /* ------------------------------------------------------------------- names */
 
-static int find_coordinate(const reader *r, const ambulo__yaml_node *node, const char *name) {
-  int found = ambulo_model_find_coordinate(r->model, name);
-  if (found >= 0 || !name[0]) return found;
-  const char *names[256];
-  size_t count = 0;
-  for (int i = 0; i < r->model->coordinate_count && count < 256; i++)
-    names[count++] = r->model->coordinates[i].name;
-  (void)ambulo__yaml_error(node, AMBULO_E_MODEL, ambulo__nearest(name, names, count),
-                           "no coordinate '%s' in model '%s'", name, r->model->name);
+/* "did you mean 'hip_r'?"; NULL: none is near */
+static const char *hint_of(ambulo__muscle_reader *r, const char *name, const char *const *names,
+                           int count) {
+  const char *nearest = ambulo__nearest(name, names, (size_t)count);
+  return nearest ? ambulo__arena_print(&r->arena, "did you mean '%s'?", nearest) : NULL;
+}
+
+static int missing(ambulo__muscle_reader *r, const ambulo__yaml_node *node, const char *what,
+                   const char *name) {
+  const ambulo_model *model = r->model;
+  const char *names[MOST_NAMES];
+  int count = 0, links = what[0] == 'l', all = links ? model->link_count : model->coordinate_count;
+  for (; count < all && count < MOST_NAMES; count++)
+    names[count] = links ? model->links[count].name : model->coordinates[count].name;
+  if (name[0])
+    (void)ambulo__yaml_error(node, AMBULO_E_MODEL, hint_of(r, name, names, count),
+                             "no %s '%s' in model '%s'", what, name, model->name);
   return -1;
 }
 
-static int find_link(const reader *r, const ambulo__yaml_node *node) {
-  const char *name = ambulo__yaml_name(node);
-  int found = ambulo_model_find_link(r->model, name);
-  if (found < 0 && name[0])
-    (void)ambulo__yaml_error(node, AMBULO_E_MODEL, NULL, "no link '%s' in model '%s'", name,
+static int find_coordinate(ambulo__muscle_reader *r, const ambulo__yaml_node *node,
+                           const char *name) {
+  int found = ambulo_model_find_coordinate(r->model, name);
+  if (found >= 0 && r->model->coordinates[found].mirror == found &&
+      ambulo__muscle_other_side(r, name))
+    (void)ambulo__yaml_error(node, AMBULO_E_MODEL, NULL,
+                             "coordinate '%s' of model '%s' has no mirror image", name,
                              r->model->name);
-  return found;
+  return found >= 0 ? found : missing(r, node, "coordinate", name);
 }
 
-/* the mirror image's name; NULL: not of the file's side */
-static const char *other_side(reader *r, const char *name) {
-  size_t length = strlen(name), end = strlen(r->suffix[0]);
-  if (length <= end || strcmp(name + length - end, r->suffix[0]) != 0) return NULL;
-  return ambulo__arena_print(&r->arena, "%.*s%s", (int)(length - end), name, r->suffix[1]);
+static int find_link(ambulo__muscle_reader *r, const ambulo__yaml_node *node) {
+  const char *name = ambulo__yaml_name(node);
+  int found = ambulo_model_find_link(r->model, name);
+  return found >= 0 ? found : missing(r, node, "link", name);
 }
 
 /* ------------------------------------------------------------------ header */
 
-static void read_joints(reader *r, const ambulo__yaml_node *node) {
-  for (int i = 0; i < ambulo__yaml_pairs(node); i++) {
+static void read_mirror(ambulo__muscle_reader *r, const ambulo__yaml_node *node) {
+  int pairs = ambulo__yaml_pairs(node);
+  if (pairs == 1) {
+    r->suffix[0] = ambulo__yaml_key(node, 0);
+    r->suffix[1] = ambulo__yaml_text(ambulo__yaml_value(node, 0));
+  } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "%d pairs of endings; expected one, such as {_r: _l}", pairs);
+  }
+}
+
+static void read_joints(ambulo__muscle_reader *r, const ambulo__yaml_node *node) {
+  int pairs = ambulo__yaml_pairs(node);
+  if (pairs > AMBULO__MOST_MUSCLE_JOINTS)
+    (void)ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "%d joints; expected at most %d", pairs,
+                             AMBULO__MOST_MUSCLE_JOINTS);
+  for (int i = 0; i < pairs && i < AMBULO__MOST_MUSCLE_JOINTS; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_value(node, i);
-    if (r->joint_count == MOST_JOINTS) {
-      (void)ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "%d joints; expected at most %d",
-                               ambulo__yaml_pairs(node), MOST_JOINTS);
-      return;
-    }
-    joint *j = &r->joints[r->joint_count++];
+    ambulo__muscle_joint *j = &r->joints[r->joint_count++];
     j->name = ambulo__yaml_key(node, i);
     j->link = find_link(r, ambulo__yaml_require(item, "link"));
     j->axes = find_link(r, ambulo__yaml_require(item, "axes"));
@@ -86,51 +83,47 @@ static void read_joints(reader *r, const ambulo__yaml_node *node) {
   }
 }
 
-static void read_ranges(reader *r, const ambulo__yaml_node *node) {
+static void read_ranges(ambulo__muscle_reader *r, const ambulo__yaml_node *node) {
   const double degree = acos(-1.0) / 180.0;
-  for (int i = 0; i < ambulo__yaml_pairs(node) && r->range_count < MOST_RANGES; i++) {
-    double range[2] = {0.0, 0.0};
+  int pairs = ambulo__yaml_pairs(node);
+  r->ranges = ambulo__arena_take(&r->arena, (size_t)pairs, sizeof *r->ranges);
+  for (int i = 0; r->ranges && i < pairs; i++) {
     const ambulo__yaml_node *value = ambulo__yaml_value(node, i);
-    int coordinate = find_coordinate(r, value, ambulo__yaml_key(node, i));
-    if (!ambulo__yaml_numbers(value, 2, range) || coordinate < 0) continue;
-    r->ranges[r->range_count].coordinate = coordinate;
-    for (int end = 0; end < 2; end++) r->ranges[r->range_count].range[end] = degree * range[end];
-    r->range_count++;
+    ambulo__muscle_range *one = &r->ranges[r->range_count++];
+    one->coordinate = find_coordinate(r, value, ambulo__yaml_key(node, i));
+    if (ambulo__yaml_numbers(value, 2, one->ends) && one->ends[0] >= one->ends[1])
+      (void)ambulo__yaml_error(
+          value, AMBULO_E_SCHEMA, NULL, "from %s to %s degrees; expected the smaller first",
+          ambulo__number_text(one->ends[0]).text, ambulo__number_text(one->ends[1]).text);
+    for (int end = 0; end < 2; end++) one->ends[end] *= degree;
   }
 }
 
 /* from each joint's centre, the origin of what its link hangs on, to the next one's, at q = 0 */
-static ambulo_status leg_length(const reader *r, double *length) {
+static ambulo_status leg_length(ambulo__muscle_reader *r) {
   ambulo__pose pose;
-  const ambulo_allocator *a = &r->arena.allocator;
-  double *zero = ambulo__alloc(a, (size_t)r->model->coordinate_count, sizeof *zero);
-  ambulo_status status = zero ? ambulo__pose_create(r->model, a, &pose) : AMBULO_E_MEMORY;
-  *length = 0.0;
-  if (!status) {
-    double at[2][3];
-    ambulo__pose_at(&pose, zero);
-    for (int i = 0; i < r->joint_count; i++) {
-      const double origin[3] = {0.0, 0.0, 0.0};
-      int link = r->joints[i].link;
-      ambulo__pose_point(&pose, link < 0 ? -1 : r->model->links[link].parent, origin, at[i % 2]);
-      if (i > 0)
-        *length += sqrt(pow(at[0][0] - at[1][0], 2) + pow(at[0][1] - at[1][1], 2) +
-                        pow(at[0][2] - at[1][2], 2));
-    }
-    ambulo__pose_free(&pose);
+  size_t d = (size_t)r->model->coordinate_count;
+  double at[2][3], *zero = ambulo__arena_take(&r->arena, d, sizeof *zero);
+  if (!zero || ambulo__pose_create(r->model, &r->arena.allocator, &pose)) return AMBULO_E_MEMORY;
+  ambulo__pose_at(&pose, zero);
+  for (int i = 0; i < r->joint_count; i++) {
+    const double origin[3] = {0.0, 0.0, 0.0};
+    int link = r->joints[i].link;
+    ambulo__pose_point(&pose, link < 0 ? -1 : r->model->links[link].parent, origin, at[i % 2]);
+    for (int k = 0; i > 0 && k < 3; k++) at[(i + 1) % 2][k] -= at[i % 2][k];
+    if (i > 0) r->length += sqrt(ambulo__dot(at[(i + 1) % 2], at[(i + 1) % 2]));
   }
-  ambulo__free(a, zero);
-  return status;
+  ambulo__pose_free(&pose);
+  return AMBULO_OK;
 }
 
-static ambulo_status read_scale(reader *r, const ambulo__yaml_node *subject) {
+static ambulo_status read_scale(ambulo__muscle_reader *r, const ambulo__yaml_node *subject) {
   double mass = ambulo__yaml_number_in(ambulo__yaml_require(subject, "mass"), 0.5, 1000, 75);
   double thigh = ambulo__yaml_number_in(ambulo__yaml_require(subject, "thigh"), 0.01, 2, 0.4);
   double shank = ambulo__yaml_number_in(ambulo__yaml_require(subject, "shank"), 0.01, 2, 0.4);
-  double length = 0.0;
   ambulo__yaml_close(subject);
-  ambulo_status status = leg_length(r, &length);
-  r->length = length > 0.0 ? length / (thigh + shank) : 1.0;
+  ambulo_status status = leg_length(r);
+  r->length = r->length > 0.0 ? r->length / (thigh + shank) : 1.0;
   r->force =
       pow((ambulo_model_mass(r->model) - ambulo__model_load_mass(r->model)) / mass, 2.0 / 3.0);
   return status;
@@ -138,7 +131,7 @@ static ambulo_status read_scale(reader *r, const ambulo__yaml_node *subject) {
 
 /* ------------------------------------------------------------------ muscles */
 
-static int read_exponents(reader *r, const ambulo__yaml_node *node, int coordinates,
+static int read_exponents(ambulo__muscle_reader *r, const ambulo__yaml_node *node, int coordinates,
                           const unsigned char (**exponents)[AMBULO__SPAN]) {
   int terms = ambulo__yaml_items(node);
   unsigned char(*made)[AMBULO__SPAN] = ambulo__arena_take(&r->arena, (size_t)terms, sizeof *made);
@@ -158,15 +151,16 @@ static int read_exponents(reader *r, const ambulo__yaml_node *node, int coordina
   return made ? terms : 0;
 }
 
-static const double *read_lengths(reader *r, const ambulo__yaml_node *node, int terms) {
+static const double *read_lengths(ambulo__muscle_reader *r, const ambulo__yaml_node *node,
+                                  int terms) {
   double *made = ambulo__arena_take(&r->arena, (size_t)terms, sizeof *made);
   if (!made || !ambulo__yaml_numbers(node, terms, made)) return made;
   for (int t = 0; t < terms; t++) made[t] *= r->length;
   return made;
 }
 
-static void read_pull(reader *r, const ambulo__yaml_node *node, const joint *j, int coordinates,
-                      ambulo_muscle_pull *pull) {
+static void read_pull(ambulo__muscle_reader *r, const ambulo__yaml_node *node,
+                      const ambulo__muscle_joint *j, int coordinates, ambulo_muscle_pull *pull) {
   static const char *const axes[] = {"x", "y", "z"};
   pull->joint = j->name;
   pull->link = j->link;
@@ -184,19 +178,19 @@ static void read_pull(reader *r, const ambulo__yaml_node *node, const joint *j, 
   ambulo__yaml_close(node);
 }
 
-static void read_pulls(reader *r, const ambulo__yaml_node *node, ambulo_muscle *m) {
+static void read_pulls(ambulo__muscle_reader *r, const ambulo__yaml_node *node, ambulo_muscle *m) {
   int count = ambulo__yaml_pairs(node);
   ambulo_muscle_pull *pulls = ambulo__arena_take(&r->arena, (size_t)count, sizeof *pulls);
   for (int i = 0; pulls && i < count; i++) {
-    const char *name = ambulo__yaml_key(node, i), *names[MOST_JOINTS];
-    const joint *found = NULL;
+    const char *name = ambulo__yaml_key(node, i), *names[AMBULO__MOST_MUSCLE_JOINTS];
+    const ambulo__muscle_joint *found = NULL;
     for (int j = 0; j < r->joint_count; j++) {
       names[j] = r->joints[j].name;
       if (!strcmp(names[j], name)) found = &r->joints[j];
     }
     if (!found) {
       (void)ambulo__yaml_error(ambulo__yaml_value(node, i), AMBULO_E_SCHEMA,
-                               ambulo__nearest(name, names, (size_t)r->joint_count),
+                               hint_of(r, name, names, r->joint_count),
                                "no joint '%s' among the file's 'joints'", name);
       continue;
     }
@@ -205,7 +199,8 @@ static void read_pulls(reader *r, const ambulo__yaml_node *node, ambulo_muscle *
   m->pulls = pulls;
 }
 
-static void read_coordinates(reader *r, const ambulo__yaml_node *node, ambulo_muscle *m) {
+static void read_coordinates(ambulo__muscle_reader *r, const ambulo__yaml_node *node,
+                             ambulo_muscle *m) {
   int count = ambulo__yaml_items(node);
   if (count < 1 || count > AMBULO__SPAN) {
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d coordinates; expected 1 to %d", count,
@@ -218,18 +213,18 @@ static void read_coordinates(reader *r, const ambulo__yaml_node *node, ambulo_mu
     m->coordinates[i] = find_coordinate(r, item, ambulo__yaml_name(item));
     for (int k = 0; k < r->range_count; k++)
       if (r->ranges[k].coordinate == m->coordinates[i])
-        memcpy(m->range[i], r->ranges[k].range, sizeof m->range[i]);
+        memcpy(m->range[i], r->ranges[k].ends, sizeof m->range[i]);
   }
 }
 
-static void read_muscle(reader *r, const ambulo__yaml_node *item, ambulo_muscle *m) {
+static void read_muscle(ambulo__muscle_reader *r, const ambulo__yaml_node *item, ambulo_muscle *m) {
   *m = ambulo_muscle_default();
   m->name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
   const ambulo__yaml_node *group = ambulo__yaml_get(item, "group");
   if (group) m->group = ambulo__yaml_name(group);
-  m->force = r->force * ambulo__yaml_number(ambulo__yaml_require(item, "force"), 1.0);
-  m->fiber = r->length * ambulo__yaml_number(ambulo__yaml_require(item, "fiber"), 0.1);
-  m->tendon = r->length * ambulo__yaml_number(ambulo__yaml_require(item, "tendon"), 0.1);
+  m->force = r->force * ambulo__yaml_number_in(ambulo__yaml_require(item, "force"), 0, 1e6, 1);
+  m->fiber = r->length * ambulo__yaml_number_in(ambulo__yaml_require(item, "fiber"), 0, 2, 0.1);
+  m->tendon = r->length * ambulo__yaml_number_in(ambulo__yaml_require(item, "tendon"), 0, 2, 0.1);
   m->pennation = ambulo__yaml_number(ambulo__yaml_get(item, "pennation"), 0.0);
   m->passive_strain =
       ambulo__yaml_number(ambulo__yaml_get(item, "passive_strain"), m->passive_strain);
@@ -247,70 +242,9 @@ static void read_muscle(reader *r, const ambulo__yaml_node *item, ambulo_muscle 
   ambulo__yaml_close(item);
 }
 
-/* ------------------------------------------------------------- mirror images */
-
-static int mirror_of(const reader *r, int coordinate) {
-  return coordinate < 0 ? -1 : r->model->coordinates[coordinate].mirror;
-}
-
-/* sign of a term where coordinates change theirs */
-static double sign_of(const reader *r, const ambulo_muscle *m, const unsigned char *exponents) {
-  double sign = 1.0;
-  for (int i = 0; i < m->coordinate_count; i++)
-    if (m->coordinates[i] >= 0 && exponents[i] % 2)
-      sign *= r->model->coordinates[m->coordinates[i]].mirror_sign;
-  return sign;
-}
-
-static int mirror_link(reader *r, int link) {
-  const char *name = link < 0 ? NULL : other_side(r, r->model->links[link].name);
-  return name ? ambulo_model_find_link(r->model, name) : link;
-}
-
-static void mirror_pulls(reader *r, const ambulo_muscle *m, ambulo_muscle *image) {
-  ambulo_muscle_pull *pulls = ambulo__arena_take(&r->arena, (size_t)m->pull_count, sizeof *pulls);
-  for (int p = 0; pulls && p < m->pull_count; p++) {
-    const ambulo_muscle_pull *own = &m->pulls[p];
-    double(*slopes)[3] = ambulo__arena_take(&r->arena, (size_t)own->term_count, sizeof *slopes);
-    pulls[p] = *own;
-    const char *image_name = other_side(r, own->joint);
-    if (image_name) pulls[p].joint = image_name;
-    pulls[p].link = mirror_link(r, own->link);
-    pulls[p].axes = mirror_link(r, own->axes);
-    pulls[p].slopes = (const double(*)[3])slopes;
-    for (int t = 0; slopes && t < own->term_count; t++)
-      for (int k = 0; k < 3; k++)
-        slopes[t][k] = sign_of(r, m, own->exponents[t]) * (k == 2 ? -1.0 : 1.0) * own->slopes[t][k];
-  }
-  image->pulls = pulls;
-}
-
-static void mirror_muscle(reader *r, const ambulo__yaml_node *item, int index) {
-  ambulo_muscle *m = &r->muscles[index], *image = &r->muscles[r->count + index];
-  const char *name = other_side(r, m->name);
-  if (!name) {
-    (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
-                             "muscle '%s' is not of the side '%s' that has a mirror image", m->name,
-                             r->suffix[0]);
-    return;
-  }
-  *image = *m;
-  image->name = name;
-  image->mirror = index;
-  m->mirror = r->count + index;
-  image->elastic = mirror_of(r, m->elastic);
-  double *length = ambulo__arena_take(&r->arena, (size_t)m->term_count, sizeof *length);
-  for (int t = 0; length && m->length && t < m->term_count; t++)
-    length[t] = sign_of(r, m, m->exponents[t]) * m->length[t];
-  image->length = length;
-  for (int i = 0; i < m->coordinate_count; i++)
-    image->coordinates[i] = mirror_of(r, m->coordinates[i]);
-  mirror_pulls(r, m, image);
-}
-
 /* ------------------------------------------------------------------ the file */
 
-static const char *read_source(reader *r, const ambulo__yaml_node *root) {
+static const char *read_source(ambulo__muscle_reader *r, const ambulo__yaml_node *root) {
   const ambulo__yaml_node *list = ambulo__yaml_require(root, "source");
   const char *license = ambulo__yaml_text(ambulo__yaml_require(root, "license"));
   const char *all = ambulo__arena_print(&r->arena, "licence %s", license);
@@ -320,7 +254,7 @@ static const char *read_source(reader *r, const ambulo__yaml_node *root) {
   return all;
 }
 
-static ambulo_status read_document(reader *r, const ambulo__yaml *document,
+static ambulo_status read_document(ambulo__muscle_reader *r, const ambulo__yaml *document,
                                    ambulo_muscles_definition *d) {
   static const char *const kinds[] = {"muscles"}, *const versions[] = {"1"};
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
@@ -328,28 +262,27 @@ static ambulo_status read_document(reader *r, const ambulo__yaml *document,
   (void)ambulo__yaml_choice(ambulo__yaml_require(root, "ambulo"), versions, 1, 0);
   d->name = ambulo__yaml_name(ambulo__yaml_require(root, "name"));
   d->source = read_source(r, root);
+  read_mirror(r, ambulo__yaml_get(root, "mirror"));
   read_joints(r, ambulo__yaml_require(root, "joints"));
   read_ranges(r, ambulo__yaml_get(root, "coordinates"));
   ambulo_status status = read_scale(r, ambulo__yaml_require(root, "subject"));
-  const ambulo__yaml_node *mirror = ambulo__yaml_get(root, "mirror");
   const ambulo__yaml_node *list = ambulo__yaml_require(root, "muscles");
-  int sides = mirror && ambulo__yaml_pairs(mirror) == 1 ? 2 : 1;
-  if (sides == 2) {
-    r->suffix[0] = ambulo__yaml_key(mirror, 0);
-    r->suffix[1] = ambulo__yaml_text(ambulo__yaml_value(mirror, 0));
-  }
+  int sides = r->suffix[0] ? 2 : 1;
   ambulo__yaml_close(root);
   r->count = ambulo__yaml_items(list);
-  if (r->count > AMBULO__MOST_MUSCLES / 2) r->count = AMBULO__MOST_MUSCLES / 2;
+  if (r->count > AMBULO__MOST_MUSCLES / 2) {
+    (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL, "%d muscles; expected at most %d",
+                             r->count, AMBULO__MOST_MUSCLES / 2);
+    r->count = 0;
+  }
   size_t all = (size_t)(sides * r->count);
   r->muscles = ambulo__arena_take(&r->arena, all, sizeof *r->muscles);
   r->places = ambulo__arena_take(&r->arena, all, sizeof *r->places);
   for (int i = 0; r->muscles && r->places && i < r->count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     read_muscle(r, item, &r->muscles[i]);
-    r->places[i] = ambulo__yaml_place(item);
-    if (sides == 2) mirror_muscle(r, item, i);
-    if (sides == 2) r->places[r->count + i] = r->places[i];
+    r->places[i] = r->places[(sides - 1) * r->count + i] = ambulo__yaml_place(item);
+    if (sides == 2) ambulo__muscle_mirror(r, item, i);
   }
   d->muscles = r->muscles;
   d->muscle_count = (int)all;
@@ -362,7 +295,7 @@ ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *pat
                                          ambulo_diagnostics *diagnostics,
                                          ambulo_muscles **muscles) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  reader r = {.arena = {.allocator = own}, .model = model};
+  ambulo__muscle_reader r = {.arena = {.allocator = own}, .model = model};
   ambulo_muscles_definition d = ambulo_muscles_definition_default();
   ambulo__yaml *document = NULL;
   char *text = NULL;
