@@ -121,7 +121,7 @@ ambulo_status ambulo__muscles_build(const ambulo_model *model,
   m->allocator = own;
   m->model = model;
   status = copy(m, definition);
-  if (!status) status = ambulo__muscles_split(m, diagnostics);
+  if (!status) status = ambulo__muscles_split(m, places, diagnostics);
   if (status)
     ambulo_muscles_free(m);
   else
