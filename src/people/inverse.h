@@ -42,8 +42,6 @@ void ambulo__doubt_units(ambulo__inverse *v);
 /* Rates and accelerations, once they are known, against the slopes of splines through the values
  * and through the rates [rows][d], NULL: none; and speeds. */
 void ambulo__doubt_rates(ambulo__inverse *v, const double *of_values, const double *of_rates);
-/* Another body, or another gravity, than the motion was written for. */
-void ambulo__doubt_body(ambulo__inverse *v);
 /* Forces that act far from their foot, and what they leave over. */
 void ambulo__doubt_loads(ambulo__inverse *v, const char *forces,
                          const ambulo_ground_residual *residual);

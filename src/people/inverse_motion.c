@@ -252,7 +252,7 @@ ambulo_status ambulo__inverse_read(ambulo__inverse *v) {
   if (!status) status = check_columns(v);
   if (status) return status;
   doubt_strays(v);
-  ambulo__doubt_body(v);
+  ambulo__doubt_body(&v->doubts, v->file, v->given, v->model);
   ambulo__doubt_units(v);
   status = filter(v);
   return status ? status : find_rates(v);

@@ -156,12 +156,11 @@ void ambulo__doubt_rates(ambulo__inverse *v, const double *of_values, const doub
 
 /* --------------------------------------------------------------------- body */
 
-void ambulo__doubt_body(ambulo__inverse *v) {
-  const ambulo_model *model = v->model;
-  const ambulo__motion *m = v->given;
+void ambulo__doubt_body(ambulo__doubts *doubts, const char *file, const ambulo__motion *m,
+                        const ambulo_model *model) {
   if (!isfinite(m->body_mass)) return;
   if (fabs(m->body_mass - model->mass) > 1e-6 * model->mass)
-    ambulo__doubt(&v->doubts, v->file,
+    ambulo__doubt(doubts, file,
                   "name the problem it was solved from in place of the model, or --mass",
                   "it is the motion of a body of %g kg; '%s' has %g kg", m->body_mass, model->name,
                   model->mass);
@@ -171,7 +170,7 @@ void ambulo__doubt_body(ambulo__inverse *v) {
     size = fmax(size, fabs(model->gravity[i]));
   }
   if (off > 1e-6 * size)
-    ambulo__doubt(&v->doubts, v->file,
+    ambulo__doubt(doubts, file,
                   "name the problem it was solved from in place of the model, or --slope",
                   "it is the motion of a body under gravity %g %g %g m/s^2; '%s' has %g %g %g",
                   m->gravity[0], m->gravity[1], m->gravity[2], model->name, model->gravity[0],
