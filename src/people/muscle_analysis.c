@@ -64,18 +64,26 @@ static ambulo_status read_coordinates(ambulo_muscle_analysis *a, const ambulo__m
   return status;
 }
 
-static void read_forces(ambulo_muscle_analysis *a, const ambulo__motion *motion) {
+static void read_forces(ambulo_muscle_analysis *a, const ambulo__motion *motion,
+                        ambulo_diagnostics *diagnostics) {
   static const char axes[] = "xyz";
   const ambulo_model *model = a->muscles->model;
+  const char *lacking = NULL; /* the first foot whose force is not known */
   for (int f = 0; f < model->foot_count; f++)
     for (int k = 0; k < 3; k++) {
       char name[AMBULO__MOTION_MAX_NAME + 1];
       (void)snprintf(name, sizeof name, "grf.%s.%c", model->feet[f].name, axes[k]);
       int column = ambulo__motion_column(motion, name);
-      if (column < 0) continue;
+      if (column < 0) {
+        if (!lacking) lacking = model->feet[f].name;
+        continue;
+      }
       a->has_grf = 1;
       copy_column(motion, column, 3 * model->foot_count, 3 * f + k, a->grf);
     }
+  if (lacking)
+    ambulo__warning(diagnostics, (ambulo__place){.file = a->motion}, NULL,
+                    "no columns 'grf.%s.x|y|z'; contact forces leave out the ground's", lacking);
 }
 
 static ambulo_status read_motion(ambulo_muscle_analysis *a, ambulo_diagnostics *diagnostics) {
@@ -94,7 +102,7 @@ static ambulo_status read_motion(ambulo_muscle_analysis *a, ambulo_diagnostics *
     a->values.rows = motion->rows;
     memcpy(a->times, motion->time, (size_t)motion->rows * sizeof *a->times);
     status = read_coordinates(a, motion, diagnostics);
-    read_forces(a, motion);
+    if (!status) read_forces(a, motion, diagnostics);
     ambulo__doubt_body(&(ambulo__doubts){.diagnostics = diagnostics}, a->motion, motion,
                        a->muscles->model);
   }

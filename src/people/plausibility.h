@@ -17,7 +17,7 @@ void ambulo__doubt(ambulo__doubts *doubts, const char *file, const char *hint, c
                    ...) __attribute__((format(printf, 4, 5)));
 /* A table that has other columns than its header says. */
 void ambulo__doubt_header(ambulo__doubts *doubts, const char *file, const ambulo__motion *table);
-/* Another body, or another gravity, than the motion was written for. */
+/* Another body, or another gravity, than the motion of the file was written for. */
 void ambulo__doubt_body(ambulo__doubts *doubts, const char *file, const ambulo__motion *motion,
                         const ambulo_model *model);
 /* E_SCHEMA if there were doubts and they count as errors. */

@@ -65,6 +65,41 @@ static void check_polynomial(checker *c, int muscle, int terms,
   }
 }
 
+static int is_above(const ambulo_model *model, int axes, int link) {
+  do link = ambulo_model_link(model, link)->parent;
+  while (link >= 0 && link != axes);
+  return link >= 0;
+}
+
+/* a joint's name means one cut, whoever crosses it: the first muscle that does says which */
+static void check_joint(checker *c, int muscle, const ambulo_muscle_pull *pull) {
+  const ambulo_muscle *first = c->definition->muscles;
+  const ambulo_muscle_pull *other = NULL;
+  for (int i = 0; i <= muscle && !other; i++)
+    for (int p = 0; p < first[i].pull_count && !other; p++)
+      if (!strcmp(first[i].pulls[p].joint, pull->joint)) other = &first[i].pulls[p];
+  if (!other || (other->link == pull->link && other->axes == pull->axes)) return;
+  int links = other->link != pull->link;
+  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of(c, muscle), NULL,
+                            "muscle '%s': the %s of joint '%s' (got %d); expected %d, as of others",
+                            first[muscle].name, links ? "link" : "axes", pull->joint,
+                            links ? pull->link : pull->axes, links ? other->link : other->axes);
+}
+
+static void check_pulls(checker *c, int muscle) {
+  const ambulo_muscle *m = &c->definition->muscles[muscle];
+  for (int p = 0; p < m->pull_count; p++) {
+    const ambulo_muscle_pull *pull = &m->pulls[p];
+    if (!ambulo_model_link(c->model, pull->link))
+      refuse(c, muscle, "the link of a pull", pull->link, "a link of the model");
+    else if (!is_above(c->model, pull->axes, pull->link))
+      refuse(c, muscle, "the axes of a pull", pull->axes, "a link above its link");
+    else
+      check_joint(c, muscle, pull);
+    check_polynomial(c, muscle, pull->term_count, pull->exponents, (const double *)pull->slopes, 3);
+  }
+}
+
 static void check_path(checker *c, int muscle) {
   const ambulo_muscle *m = &c->definition->muscles[muscle];
   if (m->coordinate_count < 1 || m->coordinate_count > AMBULO__SPAN) {
@@ -82,12 +117,7 @@ static void check_path(checker *c, int muscle) {
         refuse(c, muscle, "a coordinate twice", m->coordinates[i], "each once");
   }
   check_polynomial(c, muscle, m->term_count, m->exponents, m->length, 1);
-  for (int p = 0; p < m->pull_count; p++) {
-    const ambulo_muscle_pull *pull = &m->pulls[p];
-    if (!ambulo_model_link(c->model, pull->link) || !ambulo_model_link(c->model, pull->axes))
-      refuse(c, muscle, "the link of a pull", pull->link, "a link of the model");
-    check_polynomial(c, muscle, pull->term_count, pull->exponents, (const double *)pull->slopes, 3);
-  }
+  check_pulls(c, muscle);
 }
 
 static void check_mirror(checker *c, int muscle) {
@@ -120,7 +150,7 @@ ambulo_status ambulo__muscles_check(const ambulo_model *model,
                                     const ambulo__place *places, ambulo_diagnostics *diagnostics) {
   checker c = {model, definition, places, diagnostics, AMBULO_OK};
   const ambulo_muscles_definition *d = definition;
-  if (d->muscle_count < 1 || d->muscle_count > AMBULO__MOST_MUSCLES || !d->muscles)
+  if (d->muscle_count < 1 || d->muscle_count > AMBULO__MOST_MUSCLES)
     return ambulo__error(diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
                          "the number of muscles is out of range (got %d); expected 1 to %d",
                          d->muscle_count, AMBULO__MOST_MUSCLES);

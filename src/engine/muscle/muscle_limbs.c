@@ -101,49 +101,56 @@ static ambulo__strand strand_of(const ambulo_muscles *m, const ambulo__muscle_li
   return s;
 }
 
-static ambulo_status refuse(const ambulo_muscles *m, ambulo_diagnostics *diagnostics, int muscle,
+/* where faults are told */
+typedef struct listener {
+  const ambulo__place *places; /* of the muscles; NULL: in no file */
+  ambulo_diagnostics *diagnostics;
+} listener;
+
+static ambulo_status refuse(const ambulo_muscles *m, const listener *to, int muscle,
                             const char *what) {
-  return ambulo__error(diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+  return ambulo__error(to->diagnostics, AMBULO_E_MODEL,
+                       to->places ? to->places[muscle] : ambulo__nowhere, NULL,
                        "the limb of muscle '%s' %s", m->muscles[muscle].name, what);
 }
 
 /* the torque that stretches the limb's tendons by their whole strain */
 static ambulo_status add_elastic(const ambulo_muscles *m, ambulo__muscle_limb *limb, int muscle,
-                                 ambulo_diagnostics *diagnostics) {
+                                 const listener *to) {
   const ambulo_muscle *own = &m->muscles[muscle];
   if (own->elastic < 0) return AMBULO_OK;
   int slot = slot_of(limb, own->elastic), index = 0;
   while (own->coordinates[index] != own->elastic) index++;
   if (limb->elastic >= 0 && limb->elastic != slot)
-    return refuse(m, diagnostics, muscle,
-                  "has tendons that stretch with two coordinates; expected one");
+    return refuse(m, to, muscle, "has tendons that stretch with two coordinates; expected one");
   limb->elastic = slot;
   limb->elastic_torque -= own->force * slope_at_zero(own, index);
   return AMBULO_OK;
 }
 
-static ambulo_status fill_limb(ambulo_muscles *m, const int *least, int first,
-                               ambulo_diagnostics *diagnostics) {
+static ambulo_status fill_limb(ambulo_muscles *m, const int *least, int first, const listener *to) {
   ambulo__muscle_limb *limb = &m->limbs[m->limb_count++];
   limb->elastic = -1;
   for (int i = first; i < m->count; i++) {
     if (least[i] != first) continue;
     for (int k = 0; k < m->muscles[i].coordinate_count; k++)
       if (!add_coordinate(limb, m->muscles[i].coordinates[k]))
-        return refuse(m, diagnostics, i, "has too many coordinates; expected at most 8");
+        return refuse(m, to, i, "has too many coordinates; expected at most 8");
   }
   for (int i = first; i < m->count; i++) {
     if (least[i] != first) continue;
     limb->strands[limb->count++] = strand_of(m, limb, i);
-    ambulo_status status = add_elastic(m, limb, i, diagnostics);
+    ambulo_status status = add_elastic(m, limb, i, to);
     if (status) return status;
   }
   if (limb->elastic >= 0 && !(fabs(limb->elastic_torque) > 0.0))
-    return refuse(m, diagnostics, first, "has elastic tendons without a moment arm at q = 0");
+    return refuse(m, to, first, "has elastic tendons without a moment arm at q = 0");
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__muscles_split(ambulo_muscles *m, ambulo_diagnostics *diagnostics) {
+ambulo_status ambulo__muscles_split(ambulo_muscles *m, const ambulo__place *places,
+                                    ambulo_diagnostics *diagnostics) {
+  const listener to = {places, diagnostics};
   int *least = ambulo__alloc(&m->allocator, (size_t)m->count, sizeof *least);
   if (!least) return AMBULO_E_MEMORY;
   for (int i = 0; i < m->count; i++) sort_path(m, i);
@@ -154,7 +161,7 @@ ambulo_status ambulo__muscles_split(ambulo_muscles *m, ambulo_diagnostics *diagn
     if (least[i] != i) continue;
     ambulo__muscle_limb *limb = &m->limbs[m->limb_count];
     limb->strands = next;
-    status = fill_limb(m, least, i, diagnostics);
+    status = fill_limb(m, least, i, &to);
     next += limb->count;
   }
   ambulo__free(&m->allocator, least);

@@ -121,7 +121,7 @@ ambulo_status ambulo__muscles_build(const ambulo_model *model,
   m->allocator = own;
   m->model = model;
   status = copy(m, definition);
-  if (!status) status = ambulo__muscles_split(m, diagnostics);
+  if (!status) status = ambulo__muscles_split(m, places, diagnostics);
   if (status)
     ambulo_muscles_free(m);
   else
@@ -136,7 +136,8 @@ ambulo_status ambulo_muscles_create(const ambulo_model *model,
   ambulo_muscles_definition own;
   if (!model || !definition || !muscles ||
       !AMBULO__OWN(ambulo_muscles_definition, &own, definition) || !own.name || !own.source ||
-      own.muscle_count < 0 || !ambulo__sized_item(own.muscle_size, sizeof(ambulo_muscle)) ||
+      own.muscle_count < 0 || (own.muscle_count > 0 && !own.muscles) ||
+      !ambulo__sized_item(own.muscle_size, sizeof(ambulo_muscle)) ||
       own.muscle_pull_size != sizeof(ambulo_muscle_pull))
     return AMBULO_E_ARGUMENT;
   ambulo_allocator a = ambulo__allocator_or_default(allocator);

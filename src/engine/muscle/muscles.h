@@ -75,7 +75,8 @@ ambulo_status ambulo__muscles_check(const ambulo_model *model,
                                     const ambulo_muscles_definition *definition,
                                     const ambulo__place *places, ambulo_diagnostics *diagnostics);
 /* Limbs and strands of what is copied: muscle_limbs.c. E_MODEL, E_MEMORY. */
-ambulo_status ambulo__muscles_split(ambulo_muscles *muscles, ambulo_diagnostics *diagnostics);
+ambulo_status ambulo__muscles_split(ambulo_muscles *muscles, const ambulo__place *places,
+                                    ambulo_diagnostics *diagnostics);
 
 /* Prices of one limb's sharing, in the units of its kernel. */
 typedef struct ambulo__prices {
