@@ -101,7 +101,7 @@ static ambulo__strand strand_of(const ambulo_muscles *m, const ambulo__muscle_li
   return s;
 }
 
-/* where faults are told */
+/* where faults go */
 typedef struct listener {
   const ambulo__place *places; /* of the muscles; NULL: in no file */
   ambulo_diagnostics *diagnostics;

@@ -77,15 +77,6 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *cont
   ambulo__term_info_of(term->kind)->form(term, context, node, j, form);
 }
 
-double ambulo__air_part(const ambulo__term_context *context, int node, int foot) {
-  int at = node * ambulo_model_foot_count(context->model) + foot, in_air = context->active[at] < 0;
-  if (!context->before || (context->before[at] < 0) == in_air) return in_air;
-  const double *t = context->times;
-  double before = node > 0 ? t[node] - t[node - 1] : 0.0;
-  double after = node + 1 < context->nodes ? t[node + 1] - t[node] : 0.0;
-  return (in_air ? after : before) / (before + after);
-}
-
 /* --------------------------------------------------- eight nodes of a block at once */
 
 /* Most terms are squares; theirs is a loop of fixed length that a compiler turns into vectors. */

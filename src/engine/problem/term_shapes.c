@@ -116,3 +116,12 @@ void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope) 
   form->slope[form->count] = slope;
   form->count++;
 }
+
+double ambulo__air_part(const ambulo__term_context *context, int node, int foot) {
+  int at = node * ambulo_model_foot_count(context->model) + foot, in_air = context->active[at] < 0;
+  if (!context->before || (context->before[at] < 0) == in_air) return in_air;
+  const double *t = context->times;
+  double before = node > 0 ? t[node] - t[node - 1] : 0.0;
+  double after = node + 1 < context->nodes ? t[node + 1] - t[node] : 0.0;
+  return (in_air ? after : before) / (before + after);
+}

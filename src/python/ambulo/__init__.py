@@ -14,7 +14,7 @@
 ``Result``               the point that was found: verdict, audit, motion, sensitivities
 ``Solver``               one problem again and again, from where it stands
 ``Motion``               arrays, a table, a picture
-``Muscles``              torques shared among muscles, what joints bear, what it costs
+``Muscles``              muscle forces of a motion, contact forces, metabolic power
 ``inverse_of_file``      inverse dynamics of a measured motion
 ``compare``              a result or a measured motion against people
 ``Batch``, ``Study``     many problems at once, on all cores; the folder that this leaves
