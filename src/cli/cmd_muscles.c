@@ -147,8 +147,8 @@ const ambulo__cli_command ambulo__cli_muscles = {
         "with\n"
         "the columns q, qd, qdd and tau of every coordinate. Subject, slope and load are those of\n"
         "the problem or of the options. See docs/guide-muscles.md.",
-    .example = "ambulo solve models/walk.yaml -o walk\n"
-               "ambulo muscles models/walk.yaml walk -o muscles.csv",
+    .example = "ambulo solve models/walk.yaml -o stride\n"
+               "ambulo muscles models/walk.yaml stride -o muscles.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 2,
