@@ -11,6 +11,7 @@
 #include "ambulo/tools/load.h"
 #include "cli/guard.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 
 enum { SUBJECT_KEYS = 3, OVERRIDE = 64 };
 
@@ -21,6 +22,15 @@ ambulo_status ambulo__cli_load_problem(const ambulo__cli_input *input, const cha
   int count;
   const char *const *overrides = ambulo__cli_values(input, "set", &count);
   return ambulo_problem_load(file, overrides, count, NULL, diagnostics, problem);
+}
+
+ambulo_status ambulo__cli_load_muscles(const char *file, const ambulo_model *model,
+                                       ambulo_diagnostics *diagnostics, ambulo_muscles **muscles) {
+  char path[4096];
+  int found = file ? ambulo__cli_find_file(file, path, sizeof path)
+                   : ambulo__cli_shipped_file("leg_muscles.yaml", path, sizeof path);
+  if (!file) file = "leg_muscles.yaml";
+  return ambulo_muscles_load(found ? path : file, model, NULL, diagnostics, muscles);
 }
 
 /* what options say about the subject; of a problem file as values of it */

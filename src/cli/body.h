@@ -38,6 +38,9 @@ typedef struct ambulo__cli_body {
 /* A problem file, with what --set changes. */
 ambulo_status ambulo__cli_load_problem(const ambulo__cli_input *input, const char *file,
                                        ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+/* A file of muscles, or a shipped one of that name; NULL: the shipped leg_muscles.yaml. */
+ambulo_status ambulo__cli_load_muscles(const char *file, const ambulo_model *model,
+                                       ambulo_diagnostics *diagnostics, ambulo_muscles **muscles);
 /* A model or a problem file, by what it is. */
 ambulo_status ambulo__cli_load(const ambulo__cli_input *input, const char *file,
                                ambulo_diagnostics *diagnostics, ambulo__cli_body *body);

@@ -6,14 +6,14 @@
 
 #include "cli/body.h"
 #include "cli/output.h"
-#include "cli/shipped.h"
+#include "cli/summary.h"
 
 typedef struct job {
   ambulo__cli_body body;
   ambulo_muscles *muscles;
   ambulo_muscle_analysis *analysis;
   ambulo_diagnostics *diagnostics;
-  char motion[4096], file[4096]; /* of muscles */
+  char motion[4096];
 } job;
 
 /* the table of a result folder, or the file itself */
@@ -34,8 +34,8 @@ static ambulo_status analyse(const ambulo__cli_input *input, job *j, int overwri
                             "--activation and --metabolic are 0; expected a price above 0");
     return AMBULO_E_ARGUMENT;
   }
-  ambulo_status status =
-      ambulo_muscles_load(j->file, j->body.model, NULL, j->diagnostics, &j->muscles);
+  ambulo_status status = ambulo__cli_load_muscles(ambulo__cli_value(input, "muscles"),
+                                                  j->body.model, j->diagnostics, &j->muscles);
   if (!status)
     status = ambulo_muscle_analysis_create(j->muscles, j->motion, &options, NULL, j->diagnostics,
                                            &j->analysis);
@@ -85,27 +85,16 @@ static void print_muscles(const job *j, const ambulo_muscle_values *v) {
 
 static void print_all(const job *j) {
   const ambulo_muscle_values *v = ambulo_muscle_analysis_values(j->analysis);
-  double duration = v->times[v->rows - 1] - v->times[0];
-  printf("metabolic    %.2f W/kg gross by Bhargava et al. (2004), %.2f by Umberger et al. (2003)\n",
-         v->bhargava, v->umberger);
-  if (v->distance > 0.01)
-    printf("transport    %.2f and %.2f J/(kg m), gross, at %.2f m/s\n",
-           v->bhargava * duration / v->distance, v->umberger * duration / v->distance,
-           v->distance / duration);
+  ambulo__cli_print_metabolic(v);
   print_joints(v);
   print_muscles(j, v);
 }
 
 static int run(const ambulo__cli_input *input) {
   job j = {.diagnostics = ambulo_diagnostics_create(NULL)};
-  const char *file = ambulo__cli_value(input, "muscles");
   ambulo_status status = AMBULO_OK;
   char *text = NULL;
   find_motion(input->arguments[1], &j);
-  if (file && !ambulo__cli_find_file(file, j.file, sizeof j.file))
-    ambulo__cli_format(j.file, sizeof j.file, "%s", file);
-  else if (!file && !ambulo__cli_shipped_file("leg_muscles.yaml", j.file, sizeof j.file))
-    ambulo__cli_format(j.file, sizeof j.file, "%s", "leg_muscles.yaml");
   int code = ambulo__cli_body_load(input, input->arguments[0], j.diagnostics, &j.body, &status);
   if (!code) {
     if (!status) status = analyse(input, &j, ambulo__cli_flag(input, "force"));

@@ -28,6 +28,7 @@ typedef struct job {
   ambulo_sensitivity_list *sensitivities; /* NULL: not asked for */
   double *start;                          /* NULL: zero */
   ambulo_multipliers *multipliers;        /* of the start; NULL: none */
+  ambulo_muscles *muscles;                /* report.muscles; NULL: not given */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
   double from_step;   /* s that the one step took which the start repeats; < 0: it is none */
   double time_limit;  /* s; < 0: as in the file */
@@ -72,11 +73,8 @@ static char *default_directory(const char *problem) {
   base = base ? base + 1 : problem;
   const char *dot = strrchr(base, '.');
   size_t length = dot && dot != base ? (size_t)(dot - base) : strlen(base);
-  static const char ending[] = "_result";
-  char *name = malloc(length + sizeof ending);
-  if (!name) return NULL;
-  memcpy(name, base, length);
-  memcpy(name + length, ending, sizeof ending);
+  char *name = malloc(length + sizeof "_result");
+  if (name) ambulo__cli_format(name, length + sizeof "_result", "%.*s_result", (int)length, base);
   return name;
 }
 
@@ -118,15 +116,27 @@ static ambulo_status load_start(job *j) {
       j->repeat == AMBULO_ENDS_FREE
           ? ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start)
           : ambulo_solution_repeat(start, j->problem, j->repeat, NULL, j->diagnostics, j->start);
-  if (status) return status;
-  return ambulo_solution_multipliers(start, j->problem, j->repeat, NULL, j->diagnostics,
-                                     &j->multipliers);
+  return status ? status
+                : ambulo_solution_multipliers(start, j->problem, j->repeat, NULL, j->diagnostics,
+                                              &j->multipliers);
 }
 
 static ambulo_options solver_options(const job *j) {
   ambulo_options options = ambulo_problem_options(j->problem);
   if (j->time_limit >= 0.0) options.time_limit = j->time_limit > 0.0 ? j->time_limit : AMBULO_OFF;
   return options;
+}
+
+/* on the body of the problem as it is now */
+static ambulo_status load_muscles(job *j) {
+  const char *file = ambulo__cli_value(j->input, "muscles");
+  if (!file) return AMBULO_OK;
+  ambulo_muscles_free(j->muscles);
+  j->report.muscles = j->muscles = NULL;
+  ambulo_status status = ambulo__cli_load_muscles(file, ambulo_problem_model(j->problem),
+                                                  j->diagnostics, &j->muscles);
+  j->report.muscles = j->muscles;
+  return status;
 }
 
 static ambulo_status solve_parameters(job *j, const ambulo_options *options) {
@@ -139,7 +149,7 @@ static ambulo_status solve_parameters(job *j, const ambulo_options *options) {
   if (status) return status;
   ambulo_problem_free(j->problem);
   j->problem = best;
-  return AMBULO_OK;
+  return load_muscles(j);
 }
 
 static ambulo_status solve_refined(job *j, const ambulo_options *options) {
@@ -170,13 +180,14 @@ static ambulo_status print_outcome(job *j, int written) {
     printf("start        from one step, repeated; %.3f s\n", j->from_step);
   if (j->sensitivities) ambulo__cli_print_sensitivities(j->sensitivities);
   if (quiet) return AMBULO_OK;
+  ambulo_status status = ambulo__cli_print_muscles(j->problem, j->result, &j->report);
   if (written) {
     printf("written to   %s\n", j->directory);
     printf("picture      %s/gait.svg\n", j->directory);
   }
   ambulo__cli_print_resolution(j->result);
   ambulo__cli_print_last(j->result);
-  return AMBULO_OK;
+  return status;
 }
 
 static int verdict_exit_code(const ambulo_result *result) {
@@ -318,6 +329,7 @@ static int run_job(job *j) {
     if (!j->inputs) status = AMBULO_E_MEMORY;
     j->report.inputs = j->inputs;
   }
+  if (!status) status = load_muscles(j);
   if (!status) status = load_start(j);
   if (!status) status = solve(j);
   if (!status && ambulo__cli_flag(j->input, "sensitivities")) status = find_sensitivities(j);
@@ -330,6 +342,7 @@ static int run(const ambulo__cli_input *input) {
   int code = run_job(&j);
   ambulo_sensitivities_free(j.sensitivities);
   ambulo_result_free(j.result);
+  ambulo_muscles_free(j.muscles);
   ambulo_problem_free(j.problem);
   ambulo_problem_free(j.coarser);
   ambulo_diagnostics_free(j.diagnostics);
@@ -353,6 +366,7 @@ static const ambulo__cli_option options[] = {
     {"refine", 0, NULL,
      "solve on grids twice as fine until the objective changes by less than\n1 % and the motion "
      "holds between its nodes; write the best"},
+    {"muscles", 0, "FILE", "share the torques among muscles (default: the problem's, if any)"},
     {"samples", 0, "n", "number of times in motion.csv (default: the time nodes)"},
     {"force", 0, NULL, "replace an existing result folder"},
     {"quiet", 'q', NULL, "no progress, no summary"},
@@ -368,8 +382,8 @@ const ambulo__cli_command ambulo__cli_solve = {
     .summary = "predict a motion and write a result folder",
     .description =
         "Solves the problem and writes summary.json, motion.csv, motion.sto, solution.yaml,\n"
-        "gait.svg and scene.json into a new folder, all or nothing. The verdict comes from an\n"
-        "independent audit of the solution. Exit code 0: feasible or optimal; 1: the result was\n"
+        "gait.svg, scene.json and, with muscles, muscles.csv into a new folder, all or nothing. The\n"
+        "verdict comes from an independent audit of the solution. Exit code 0: feasible or optimal; 1: the result was\n"
         "written, but it is not a solution and says so.",
     .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "

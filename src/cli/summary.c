@@ -218,6 +218,26 @@ void ambulo__cli_print_sensitivities(const ambulo_sensitivity_list *list) {
            100.0 * least_share);
 }
 
+void ambulo__cli_print_metabolic(const ambulo_muscle_values *v) {
+  double duration = v->times[v->rows - 1] - v->times[0];
+  printf("metabolic    %.2f W/kg gross by Bhargava et al. (2004), %.2f by Umberger et al. (2003)\n",
+         v->bhargava, v->umberger);
+  if (v->distance > 0.01)
+    printf("transport    %.2f and %.2f J/(kg m), gross, at %.2f m/s\n",
+           v->bhargava * duration / v->distance, v->umberger * duration / v->distance,
+           v->distance / duration);
+}
+
+ambulo_status ambulo__cli_print_muscles(const ambulo_problem *problem, const ambulo_result *result,
+                                        const ambulo_report_options *report) {
+  ambulo_muscle_analysis *analysis = NULL;
+  ambulo_status status = ambulo_muscle_analysis_of_result(
+      problem, result, report->muscles, report->samples, NULL, NULL, &analysis);
+  if (analysis) ambulo__cli_print_metabolic(ambulo_muscle_analysis_values(analysis));
+  ambulo_muscle_analysis_free(analysis);
+  return status;
+}
+
 void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result) {
   const double *values = ambulo_result_rows(result);
   const double *multipliers = ambulo_result_multipliers(result);

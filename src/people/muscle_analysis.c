@@ -8,6 +8,7 @@
 #include "base/sized.h"
 #include "mechanics/pose.h"
 #include "people/plausibility.h"
+#include "people/stride.h"
 
 static const double shortest = 0.02; /* s: rates of torques are differences over no less */
 
@@ -64,6 +65,12 @@ static ambulo_status read_coordinates(ambulo_muscle_analysis *a, const ambulo__m
   return status;
 }
 
+static void warn_of_forces(const ambulo_muscle_analysis *a, const char *foot,
+                           ambulo_diagnostics *diagnostics) {
+  ambulo__warning(diagnostics, (ambulo__place){.file = a->motion}, NULL,
+                  "no columns 'grf.%s.x|y|z'; contact forces leave out the ground's", foot);
+}
+
 static void read_forces(ambulo_muscle_analysis *a, const ambulo__motion *motion,
                         ambulo_diagnostics *diagnostics) {
   static const char axes[] = "xyz";
@@ -81,9 +88,7 @@ static void read_forces(ambulo_muscle_analysis *a, const ambulo__motion *motion,
       a->has_grf = 1;
       copy_column(motion, column, 3 * model->foot_count, 3 * f + k, a->grf);
     }
-  if (lacking)
-    ambulo__warning(diagnostics, (ambulo__place){.file = a->motion}, NULL,
-                    "no columns 'grf.%s.x|y|z'; contact forces leave out the ground's", lacking);
+  if (lacking) warn_of_forces(a, lacking, diagnostics);
 }
 
 static ambulo_status read_motion(ambulo_muscle_analysis *a, ambulo_diagnostics *diagnostics) {
@@ -243,8 +248,7 @@ static void warn_of_reserve(const ambulo_muscle_analysis *a, ambulo_diagnostics 
 /* ------------------------------------------------------------------- public */
 
 static ambulo_status analyse(ambulo_muscle_analysis *a, ambulo_diagnostics *diagnostics) {
-  ambulo_status status = read_motion(a, diagnostics);
-  if (!status) status = share(a);
+  ambulo_status status = share(a);
   if (!status) status = find_distance(a);
   if (status) return status;
   const ambulo__cut_motion motion = {
@@ -272,6 +276,35 @@ static ambulo_status analyse(ambulo_muscle_analysis *a, ambulo_diagnostics *diag
   return AMBULO_OK;
 }
 
+/* one without a motion */
+static ambulo_status begin(const ambulo_muscles *muscles, const char *motion,
+                           const ambulo_muscle_options *options, const ambulo_allocator *allocator,
+                           ambulo_muscle_analysis **analysis) {
+  ambulo_allocator memory = ambulo__allocator_or_default(allocator);
+  ambulo_muscle_analysis *a = ambulo__alloc(&memory, 1, sizeof *a);
+  if (!a) return AMBULO_E_MEMORY;
+  a->allocator = memory;
+  a->muscles = muscles;
+  a->options = *options;
+  a->values.size = sizeof a->values;
+  a->values.joints = ambulo__cuts(muscles, AMBULO__MOST_CUTS, a->cuts);
+  for (int j = 0; j < a->values.joints; j++) a->joints[j] = a->cuts[j].name;
+  a->values.joint = a->joints;
+  a->motion = ambulo__strdup(&memory, motion);
+  *analysis = a;
+  return a->motion ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+/* the analysis, or nothing of it */
+static ambulo_status end(ambulo_muscle_analysis *a, ambulo_status status,
+                         ambulo_muscle_analysis **analysis) {
+  if (status)
+    ambulo_muscle_analysis_free(a);
+  else
+    *analysis = a;
+  return status;
+}
+
 ambulo_status ambulo_muscle_analysis_create(const ambulo_muscles *muscles, const char *motion,
                                             const ambulo_muscle_options *options,
                                             const ambulo_allocator *allocator,
@@ -281,24 +314,68 @@ ambulo_status ambulo_muscle_analysis_create(const ambulo_muscles *muscles, const
   if (!muscles || !motion || !analysis || !AMBULO__OWN(ambulo_muscle_options, &own, options) ||
       !(own.resting_power >= 0.0 && own.resting_power < 100.0))
     return AMBULO_E_ARGUMENT;
-  ambulo_allocator memory = ambulo__allocator_or_default(allocator);
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_muscle_analysis *a = ambulo__alloc(&memory, 1, sizeof *a);
-  if (!a) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, motion);
-  a->allocator = memory;
-  a->muscles = muscles;
-  a->options = own;
-  a->values.size = sizeof a->values;
-  a->values.joints = ambulo__cuts(muscles, AMBULO__MOST_CUTS, a->cuts);
-  for (int j = 0; j < a->values.joints; j++) a->joints[j] = a->cuts[j].name;
-  a->values.joint = a->joints;
-  a->motion = ambulo__strdup(&memory, motion);
-  ambulo_status status = a->motion ? analyse(a, diagnostics) : AMBULO_E_MEMORY;
-  if (status)
-    ambulo_muscle_analysis_free(a);
-  else
-    *analysis = a;
-  return ambulo__conclude(diagnostics, errors, status, motion);
+  ambulo_muscle_analysis *a = NULL;
+  ambulo_status status = begin(muscles, motion, &own, allocator, &a);
+  if (!status) status = read_motion(a, diagnostics);
+  if (!status) status = analyse(a, diagnostics);
+  return ambulo__conclude(diagnostics, errors, end(a, status, analysis), motion);
+}
+
+static ambulo_status copy_stride(ambulo_muscle_analysis *a, const ambulo__stride *s) {
+  const size_t all = (size_t)s->samples * (size_t)s->coordinates * sizeof *s->q;
+  ambulo_status status = allocate(a, s->samples);
+  if (status) return status;
+  a->values.rows = s->samples;
+  a->has_grf = s->feet > 0;
+  memcpy(a->times, s->times, (size_t)s->samples * sizeof *s->times);
+  memcpy(a->q, s->q, all);
+  memcpy(a->qd, s->qd, all);
+  memcpy(a->qdd, s->qdd, all);
+  memcpy(a->tau, s->tau, all);
+  if (a->has_grf)
+    memcpy(a->grf, s->grf, 3 * (size_t)s->samples * (size_t)s->feet * sizeof *s->grf);
+  return AMBULO_OK;
+}
+
+static ambulo_status of_stride(const ambulo_muscles *muscles, const ambulo__stride *stride,
+                               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                               ambulo_muscle_analysis **analysis) {
+  const ambulo_muscle_options usual = ambulo_muscle_options_default();
+  const ambulo_model *model = muscles->model;
+  ambulo_muscle_analysis *a = NULL;
+  ambulo_status status = begin(muscles, "motion.csv", &usual, allocator, &a);
+  if (!status) status = copy_stride(a, stride);
+  if (!status && !a->has_grf && model->foot_count > 0)
+    warn_of_forces(a, model->feet[0].name, diagnostics);
+  if (!status) status = analyse(a, diagnostics);
+  return end(a, status, analysis);
+}
+
+ambulo_status ambulo_muscle_analysis_of_result(const ambulo_problem *problem,
+                                               const ambulo_result *result,
+                                               const ambulo_muscles *muscles, int samples,
+                                               const ambulo_allocator *allocator,
+                                               ambulo_diagnostics *diagnostics,
+                                               ambulo_muscle_analysis **analysis) {
+  if (!problem || !result || !analysis) return AMBULO_E_ARGUMENT;
+  if (!muscles) muscles = problem->definition.muscles;
+  *analysis = NULL;
+  if (!muscles) return AMBULO_OK;
+  const ambulo_model *model = problem->model;
+  if (muscles->model->coordinate_count != model->coordinate_count ||
+      muscles->model->foot_count != model->foot_count)
+    return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo__stride stride = {.samples = 0};
+  ambulo_status status =
+      ambulo__stride_create(problem, ambulo_result_x(result), samples, allocator, &stride);
+  if (!status) status = of_stride(muscles, &stride, allocator, diagnostics, analysis);
+  ambulo__stride_free(&stride);
+  if (status != AMBULO_E_NUMERIC) return ambulo__conclude(diagnostics, errors, status, "muscles");
+  ambulo__warning(diagnostics, (ambulo__place){.file = "motion.csv"}, NULL,
+                  "the motion is not finite; the result is without muscles");
+  return AMBULO_OK;
 }
 
 void ambulo_muscle_analysis_free(ambulo_muscle_analysis *a) {

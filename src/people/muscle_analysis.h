@@ -3,6 +3,7 @@
 #define AMBULO_PEOPLE_MUSCLE_ANALYSIS_H
 
 #include "ambulo/tools/muscle_analysis.h"
+#include "formats/json_text.h"
 #include "formats/motion_file.h"
 #include "people/joint_contact.h"
 #include "people/metabolic.h"
@@ -12,7 +13,7 @@ enum { AMBULO__MOST_CUTS = 32 };
 struct ambulo_muscle_analysis {
   ambulo_allocator allocator;
   const ambulo_muscles *muscles;
-  char *motion; /* the file */
+  char *motion; /* the file; of a result what it is called there */
   ambulo_muscle_options options;
   ambulo_muscle_values values;
   ambulo__cut cuts[AMBULO__MOST_CUTS];
@@ -29,5 +30,7 @@ double ambulo__muscle_integral(const ambulo_muscle_analysis *a, const double *va
 
 /* The table as text: muscle_table.c. */
 void ambulo__muscle_table(const ambulo_muscle_analysis *a, int sto, ambulo__text_buffer *text);
+/* The summary as a member; `key` NULL: all of the text. */
+void ambulo__muscle_json(ambulo__json *json, const char *key, const ambulo_muscle_analysis *a);
 
 #endif

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "formats/atomic_file.h"
-#include "formats/json_text.h"
 #include "model/model.h"
 #include "people/muscle_analysis.h"
 
@@ -180,33 +179,37 @@ static void put_reserves(ambulo__json *json, const ambulo_muscle_analysis *a) {
   ambulo__json_close(json, '}');
 }
 
+void ambulo__muscle_json(ambulo__json *json, const char *key, const ambulo_muscle_analysis *a) {
+  const ambulo_muscle_values *v = &a->values;
+  double duration = v->times[v->rows - 1] - v->times[0], rest = a->options.resting_power;
+  ambulo__json_open(json, key, '{');
+  ambulo__json_text(json, "muscles_of", a->muscles->name);
+  ambulo__json_text(json, "source", a->muscles->source);
+  ambulo__json_number(json, "duration", duration);
+  ambulo__json_number(json, "distance", v->distance);
+  ambulo__json_open(json, "metabolic", '{');
+  ambulo__json_number(json, "resting", rest);
+  ambulo__json_number(json, "bhargava", v->bhargava);
+  ambulo__json_number(json, "umberger", v->umberger);
+  if (v->distance > 0.01) {
+    ambulo__json_number(json, "bhargava_per_kg_metre", v->bhargava * duration / v->distance);
+    ambulo__json_number(json, "umberger_per_kg_metre", v->umberger * duration / v->distance);
+  }
+  ambulo__json_close(json, '}');
+  put_joints(json, a);
+  put_reserves(json, a);
+  put_muscles(json, a);
+  ambulo__json_close(json, '}');
+}
+
 ambulo_status ambulo_muscle_analysis_json(const ambulo_muscle_analysis *a,
                                           const ambulo_allocator *allocator, char **text) {
   if (!a || !text) return AMBULO_E_ARGUMENT;
-  const ambulo_muscle_values *v = &a->values;
   ambulo_allocator memory = ambulo__allocator_or_default(allocator);
   ambulo__text_buffer buffer;
   ambulo__text_init(&buffer, &memory);
   ambulo__json json = {&buffer, 0, 1};
-  double duration = v->times[v->rows - 1] - v->times[0], rest = a->options.resting_power;
-  ambulo__json_open(&json, NULL, '{');
-  ambulo__json_text(&json, "muscles_of", a->muscles->name);
-  ambulo__json_text(&json, "source", a->muscles->source);
-  ambulo__json_number(&json, "duration", duration);
-  ambulo__json_number(&json, "distance", v->distance);
-  ambulo__json_open(&json, "metabolic", '{');
-  ambulo__json_number(&json, "resting", rest);
-  ambulo__json_number(&json, "bhargava", v->bhargava);
-  ambulo__json_number(&json, "umberger", v->umberger);
-  if (v->distance > 0.01) {
-    ambulo__json_number(&json, "bhargava_per_kg_metre", v->bhargava * duration / v->distance);
-    ambulo__json_number(&json, "umberger_per_kg_metre", v->umberger * duration / v->distance);
-  }
-  ambulo__json_close(&json, '}');
-  put_joints(&json, a);
-  put_reserves(&json, a);
-  put_muscles(&json, a);
-  ambulo__json_close(&json, '}');
+  ambulo__muscle_json(&json, NULL, a);
   ambulo_status status = ambulo__text_status(&buffer);
   if (!status) {
     *text = ambulo__strdup(&memory, ambulo__text_data(&buffer));

@@ -52,6 +52,7 @@ OWN = {
     ("ambulo_options", "progress"), ("ambulo_options", "multipliers"), ("ambulo_progress", "point"),
     ("ambulo_solver_state", "x"), ("ambulo_parameters", "problem_at"),
     ("ambulo_parameters", "start"), ("ambulo_report_options", "sensitivities"),
+    ("ambulo_report_options", "muscles"),
     ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
     ("ambulo_export_options", "inverse"), ("ambulo_export_options", "problem"),
 }

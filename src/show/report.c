@@ -145,6 +145,7 @@ static const char summary_name[] = "summary.json";
  * an earlier result and replaced */
 static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.sto",
                                          "solution.yaml", "gait.svg",   "scene.json",
+                                         "muscles.csv",
                                          "report.html"};
 static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
                                          sizeof file_names / sizeof *file_names};
@@ -258,11 +259,28 @@ static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *re
   return status;
 }
 
+static ambulo_status write_summary(const ambulo_problem *problem, const ambulo_result *result,
+                                   const ambulo_report_options *options, ambulo__folder *folder,
+                                   ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
+  ambulo_muscle_analysis *muscles = NULL;
+  ambulo_status status =
+      ambulo_muscle_analysis_of_result(problem, result, options->muscles, options->samples,
+                                       &text->allocator, diagnostics, &muscles);
+  if (status) return status;
+  ambulo__summary_json(problem, result, options, muscles, text);
+  status = write_text(folder, summary_name, text, diagnostics);
+  if (!status && muscles) {
+    ambulo__muscle_table(muscles, 0, text);
+    status = write_text(folder, "muscles.csv", text, diagnostics);
+  }
+  ambulo_muscle_analysis_free(muscles);
+  return status;
+}
+
 static ambulo_status write_all(const ambulo_problem *problem, const ambulo_result *result,
                                const ambulo_report_options *options, ambulo__folder *folder,
                                ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
-  ambulo__summary_json(problem, result, options, text);
-  ambulo_status status = write_text(folder, summary_name, text, diagnostics);
+  ambulo_status status = write_summary(problem, result, options, folder, text, diagnostics);
   if (status) return status;
   ambulo__solution_yaml(problem, result, text);
   status = write_text(folder, "solution.yaml", text, diagnostics);
@@ -299,8 +317,14 @@ ambulo_status ambulo_report_summary(const ambulo_problem *problem, const ambulo_
   if (!problem || !result || !text || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
   ambulo__text_buffer buffer;
   ambulo__text_init(&buffer, allocator);
-  ambulo__summary_json(problem, result, &own, &buffer);
-  ambulo_status status = ambulo__text_status(&buffer);
+  ambulo_muscle_analysis *muscles = NULL;
+  ambulo_status status = ambulo_muscle_analysis_of_result(problem, result, own.muscles, own.samples,
+                                                          allocator, NULL, &muscles);
+  if (!status) {
+    ambulo__summary_json(problem, result, &own, muscles, &buffer);
+    status = ambulo__text_status(&buffer);
+  }
+  ambulo_muscle_analysis_free(muscles);
   char *copy = status ? NULL : ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
   ambulo__text_free(&buffer);
   if (!status && !copy) status = AMBULO_E_MEMORY;

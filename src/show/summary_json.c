@@ -312,7 +312,8 @@ static void effort(ambulo__json *json, const ambulo_result *result) {
 }
 
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          const ambulo_report_options *options, ambulo__text_buffer *text) {
+                          const ambulo_report_options *options,
+                          const ambulo_muscle_analysis *muscles, ambulo__text_buffer *text) {
   ambulo__json writer = {.text = text, .first = 1};
   ambulo__json *json = &writer;
   ambulo_verdict verdict = ambulo_result_verdict(result);
@@ -330,7 +331,8 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   objective(json, problem, result);
   free_parameters(json, result);
   if (!status) status = ambulo__reaction_json(json, problem, result);
-  if (!status) status = ambulo__economy_json(json, problem, result);
+  if (!status) status = ambulo__economy_json(json, problem, result, muscles != NULL);
+  if (muscles) ambulo__muscle_json(json, "muscles", muscles);
   if (!status) status = ambulo__approach_json(json, problem, result);
   if (!status) status = ambulo__devices_json(json, problem, result);
   if (!status) status = ambulo__holds_json(json, problem, result);

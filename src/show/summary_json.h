@@ -7,6 +7,7 @@
 #include "ambulo/tools/report.h"
 #include "base/text_buffer.h"
 #include "formats/json_text.h"
+#include "people/muscle_analysis.h"
 #include "problem/nlp.h"
 
 /* 16 digits of the SHA-256 of the engine's sources, which the build writes: two builds of one
@@ -27,10 +28,10 @@ ambulo_status ambulo__devices_json(ambulo__json *json, const ambulo_problem *pro
 
 /* "work" and "center_of_mass" of summary.json. */
 
-/* The members; without ground reaction no work, whose torques are not those of joints. Errors:
- * E_MEMORY. */
+/* The members; without ground reaction no work, whose torques are not those of joints. With
+ * muscles, whose power is known, metabolic cost is not estimated. Errors: E_MEMORY. */
 ambulo_status ambulo__economy_json(ambulo__json *json, const ambulo_problem *problem,
-                                   const ambulo_result *result);
+                                   const ambulo_result *result, int with_muscles);
 
 /* the way of the solve in summary.json. */
 
@@ -59,9 +60,10 @@ ambulo_status ambulo__reaction_json(ambulo__json *json, const ambulo_problem *pr
 
 /* summary.json (docs/results.md). */
 
-/* Appends the whole text, with the options' sensitivities and inputs. Failures stick to the buffer.
- */
+/* Appends the whole text, with the options' sensitivities and inputs, and what muscles do (NULL:
+ * nothing is said). Failures stick to the buffer. */
 void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
-                          const ambulo_report_options *options, ambulo__text_buffer *text);
+                          const ambulo_report_options *options,
+                          const ambulo_muscle_analysis *muscles, ambulo__text_buffer *text);
 
 #endif

@@ -151,14 +151,14 @@ static void work(ambulo__json *json, const ambulo__stride *s, const ambulo__econ
 }
 
 ambulo_status ambulo__economy_json(ambulo__json *json, const ambulo_problem *problem,
-                                   const ambulo_result *result) {
+                                   const ambulo_result *result, int with_muscles) {
   ambulo__stride stride = {.samples = 0};
   ambulo__economy economy = {.positive = NULL};
   ambulo__walking_cost cost = {.is_walk = 0};
   const ambulo_allocator *a = &json->text->allocator;
   ambulo_status status =
       ambulo__stride_create(problem, ambulo_result_x(result), ECONOMY_JSON_SAMPLES, a, &stride);
-  if (!status) status = ambulo__walking_cost_of(&stride, a, &cost);
+  if (!status && !with_muscles) status = ambulo__walking_cost_of(&stride, a, &cost);
   if (!status) status = ambulo__economy_of(&stride, a, &economy);
   if (!status) {
     if (problem->channels.slots) work(json, &stride, &economy, &cost);

@@ -49,7 +49,7 @@ static void write(const char *file, ambulo__text_buffer *text) {
   ambulo__text_init(text, &own);
   ambulo__json json = {.text = text};
   ambulo__json_open(&json, NULL, '{');
-  assert_int_equal(ambulo__economy_json(&json, problem, result), AMBULO_OK);
+  assert_int_equal(ambulo__economy_json(&json, problem, result, 0), AMBULO_OK);
   ambulo__json_close(&json, '}');
   assert_true(is_json(ambulo__text_data(text)));
   ambulo_result_free(result);
@@ -90,7 +90,7 @@ static void the_numbers_are_the_economys(void **state) {
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
   ambulo__text_init(&text, &counting);
   ambulo__json json = {.text = &text};
-  assert_int_equal(ambulo__economy_json(&json, problem, result), AMBULO_OK);
+  assert_int_equal(ambulo__economy_json(&json, problem, result, 0), AMBULO_OK);
   assert_int_equal(ambulo__stride_create(problem, ambulo_result_x(result), 1001, NULL, &stride),
                    AMBULO_OK);
   assert_int_equal(ambulo__economy_of(&stride, NULL, &economy), AMBULO_OK);

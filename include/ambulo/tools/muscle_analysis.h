@@ -12,6 +12,7 @@
 #define AMBULO_TOOLS_MUSCLE_ANALYSIS_H
 
 #include "ambulo/muscles.h"
+#include "ambulo/solve.h"
 #include "ambulo/tools/common.h"
 
 #ifdef __cplusplus
@@ -57,6 +58,14 @@ typedef struct ambulo_muscle_values {
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_muscle_analysis_create(
     const ambulo_muscles *muscles, const char *motion, const ambulo_muscle_options *options,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+    ambulo_muscle_analysis **analysis);
+/* Of a result: what the above finds in its motion.csv of so many `samples` (0: the nodes) with the
+ * default options. `muscles` are of a body with the problem's coordinates; NULL: those of the
+ * problem. *analysis is NULL where there are none, and, after a warning, where the motion is not
+ * finite. Errors: E_ARGUMENT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_muscle_analysis_of_result(
+    const ambulo_problem *problem, const ambulo_result *result, const ambulo_muscles *muscles,
+    int samples, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
     ambulo_muscle_analysis **analysis);
 AMBULO_API void ambulo_muscle_analysis_free(ambulo_muscle_analysis *analysis); /* accepts NULL */
 /* Belongs to the analysis. */

@@ -7,6 +7,7 @@
 #ifndef AMBULO_TOOLS_REPORT_H
 #define AMBULO_TOOLS_REPORT_H
 
+#include "ambulo/muscles.h"
 #include "ambulo/tools/inverse.h"
 #include "ambulo/sensitivity.h"
 #include "ambulo/solve.h"
@@ -24,6 +25,8 @@ typedef struct ambulo_report_options {
   const ambulo_sensitivity_list *sensitivities; /* NULL: summary.json has none */
   const char *inputs; /* ambulo_problem_inputs of the problem that this one was made from; NULL: of
                          this one */
+  const ambulo_muscles *muscles; /* who makes the motion: of a body with the problem's coordinates;
+                                    NULL: those of the problem, if it has any */
 } ambulo_report_options;
 AMBULO_TOOL_DEFAULT(ambulo_report_options);
 
@@ -34,8 +37,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_check(const char *direct
                                                               const ambulo_report_options *options,
                                                               ambulo_diagnostics *diagnostics);
 
-/* Writes summary.json, motion.csv, motion.sto, solution.yaml and gait.svg into
- * `directory`, all or nothing. Errors: E_ARGUMENT, E_IO, E_MEMORY. */
+/* Writes summary.json, motion.csv, motion.sto, solution.yaml, gait.svg, scene.json and, with
+ * muscles, muscles.csv into `directory`, all or nothing. Muscles of a motion that is not finite are
+ * left out with a warning. Errors: E_ARGUMENT, E_IO, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(const ambulo_problem *problem,
                                                               const ambulo_result *result,
                                                               const char *directory,
