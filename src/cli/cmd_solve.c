@@ -72,9 +72,9 @@ static char *default_directory(const char *problem) {
   const char *base = strrchr(problem, '/');
   base = base ? base + 1 : problem;
   const char *dot = strrchr(base, '.');
-  size_t length = dot && dot != base ? (size_t)(dot - base) : strlen(base);
-  char *name = malloc(length + sizeof "_result");
-  if (name) ambulo__cli_format(name, length + sizeof "_result", "%.*s_result", (int)length, base);
+  int length = dot && dot != base ? (int)(dot - base) : (int)strlen(base), size = length + 8;
+  char *name = malloc((size_t)size);
+  if (name) ambulo__cli_format(name, (size_t)size, "%.*s_result", length, base);
   return name;
 }
 
@@ -133,8 +133,8 @@ static ambulo_status load_muscles(job *j) {
   if (!file) return AMBULO_OK;
   ambulo_muscles_free(j->muscles);
   j->report.muscles = j->muscles = NULL;
-  ambulo_status status = ambulo__cli_load_muscles(file, ambulo_problem_model(j->problem),
-                                                  j->diagnostics, &j->muscles);
+  ambulo_status status =
+      ambulo__cli_load_muscles(file, ambulo_problem_model(j->problem), j->diagnostics, &j->muscles);
   j->report.muscles = j->muscles;
   return status;
 }
@@ -256,8 +256,7 @@ static void give_up_solve(void *user, const ambulo_progress *last, ambulo_ending
 /* with the result, whose sensitivities are not known */
 static void give_up_sensitivities(void *user, const ambulo_progress *last, ambulo_ending ending) {
   job j = beside(user);
-  (void)last;
-  (void)ending;
+  (void)last, (void)ending;
   end_deaf(&j, AMBULO_OK);
 }
 
@@ -382,9 +381,9 @@ const ambulo__cli_command ambulo__cli_solve = {
     .summary = "predict a motion and write a result folder",
     .description =
         "Solves the problem and writes summary.json, motion.csv, motion.sto, solution.yaml,\n"
-        "gait.svg, scene.json and, with muscles, muscles.csv into a new folder, all or nothing. The\n"
-        "verdict comes from an independent audit of the solution. Exit code 0: feasible or optimal; 1: the result was\n"
-        "written, but it is not a solution and says so.",
+        "gait.svg, scene.json and, of muscles, muscles.csv into a new folder, all or nothing. The\n"
+        "verdict comes from an independent audit of the solution. Exit code 0: feasible or\n"
+        "optimal; 1: the result was written, but it is not a solution and says so.",
     .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
                "--start walk/solution.yaml -o finer\n"

@@ -231,8 +231,8 @@ void ambulo__cli_print_metabolic(const ambulo_muscle_values *v) {
 ambulo_status ambulo__cli_print_muscles(const ambulo_problem *problem, const ambulo_result *result,
                                         const ambulo_report_options *report) {
   ambulo_muscle_analysis *analysis = NULL;
-  ambulo_status status = ambulo_muscle_analysis_of_result(
-      problem, result, report->muscles, report->samples, NULL, NULL, &analysis);
+  ambulo_status status = ambulo_muscle_analysis_of_result(problem, result, report->muscles,
+                                                          report->samples, NULL, NULL, &analysis);
   if (analysis) ambulo__cli_print_metabolic(ambulo_muscle_analysis_values(analysis));
   ambulo_muscle_analysis_free(analysis);
   return status;

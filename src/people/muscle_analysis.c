@@ -333,8 +333,7 @@ static ambulo_status copy_stride(ambulo_muscle_analysis *a, const ambulo__stride
   memcpy(a->qd, s->qd, all);
   memcpy(a->qdd, s->qdd, all);
   memcpy(a->tau, s->tau, all);
-  if (a->has_grf)
-    memcpy(a->grf, s->grf, 3 * (size_t)s->samples * (size_t)s->feet * sizeof *s->grf);
+  if (a->has_grf) memcpy(a->grf, s->grf, 3 * (size_t)s->samples * (size_t)s->feet * sizeof *s->grf);
   return AMBULO_OK;
 }
 

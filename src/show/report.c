@@ -145,8 +145,7 @@ static const char summary_name[] = "summary.json";
  * an earlier result and replaced */
 static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.sto",
                                          "solution.yaml", "gait.svg",   "scene.json",
-                                         "muscles.csv",
-                                         "report.html"};
+                                         "muscles.csv",   "report.html"};
 static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
                                          sizeof file_names / sizeof *file_names};
 
@@ -263,9 +262,8 @@ static ambulo_status write_summary(const ambulo_problem *problem, const ambulo_r
                                    const ambulo_report_options *options, ambulo__folder *folder,
                                    ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
   ambulo_muscle_analysis *muscles = NULL;
-  ambulo_status status =
-      ambulo_muscle_analysis_of_result(problem, result, options->muscles, options->samples,
-                                       &text->allocator, diagnostics, &muscles);
+  ambulo_status status = ambulo_muscle_analysis_of_result(
+      problem, result, options->muscles, options->samples, &text->allocator, diagnostics, &muscles);
   if (status) return status;
   ambulo__summary_json(problem, result, options, muscles, text);
   status = write_text(folder, summary_name, text, diagnostics);

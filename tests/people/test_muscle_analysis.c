@@ -1,5 +1,6 @@
 /* A walk's torques shared among muscles: work, contact forces, costs, and tables that are none. */
 #include "people/walk_muscles.h"
+#include "solver/result.h"
 #include "support/fail_alloc.h"
 #include "support/muscle_path.h"
 
@@ -127,6 +128,64 @@ static void a_price_of_power_saves_power(void **state) {
   ambulo_muscle_analysis_free(b);
 }
 
+/* ------------------------------------------------------------------ of a result */
+
+static void a_result_has_the_muscles_of_its_table(void **state) {
+  const walk_muscles *w = *state;
+  ambulo_muscle_analysis *file = analysis_of(w, w->path, NULL), *own = NULL;
+  assert_int_equal(
+      ambulo_muscle_analysis_of_result(w->problem, w->result, w->muscles, 0, NULL, NULL, &own),
+      AMBULO_OK);
+  const ambulo_muscle_values *a = ambulo_muscle_analysis_values(file),
+                             *b = ambulo_muscle_analysis_values(own);
+  const size_t all = (size_t)a->rows * (size_t)ambulo_muscles_count(w->muscles);
+  assert_int_equal(a->rows, b->rows);
+  assert_memory_equal(a->activation, b->activation, all * sizeof(double));
+  assert_memory_equal(a->metabolic, b->metabolic, all * sizeof(double));
+  assert_memory_equal(a->contact, b->contact, 3 * (size_t)(a->rows * a->joints) * sizeof(double));
+  assert_true(a->umberger == b->umberger && a->distance == b->distance);
+  ambulo_muscle_analysis_free(file);
+  ambulo_muscle_analysis_free(own);
+  assert_int_equal(
+      ambulo_muscle_analysis_of_result(w->problem, w->result, w->muscles, 41, NULL, NULL, &own),
+      AMBULO_OK);
+  assert_int_equal(ambulo_muscle_analysis_values(own)->rows, 41);
+  ambulo_muscle_analysis_free(own);
+}
+
+static void a_result_without_muscles_has_none(void **state) {
+  const walk_muscles *w = *state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_muscle_analysis *a = (ambulo_muscle_analysis *)1;
+  ambulo_muscles *muscles = NULL;
+  ambulo_model *other = NULL;
+  ambulo_result *endless = NULL;
+  assert_int_equal(ambulo_muscle_analysis_of_result(w->problem, w->result, NULL, 0, NULL, list, &a),
+                   AMBULO_OK);
+  assert_null(a);
+  assert_int_equal(ambulo_diagnostics_count(list), 0);
+  assert_int_equal(ambulo__result_create(w->problem, NULL, &endless), AMBULO_OK);
+  endless->x[0] = (double)NAN;
+  a = (ambulo_muscle_analysis *)1;
+  assert_int_equal(
+      ambulo_muscle_analysis_of_result(w->problem, endless, w->muscles, 0, NULL, list, &a),
+      AMBULO_OK);
+  assert_null(a);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_message(list, 0, "warning: the motion is not finite; the result is without muscles");
+  assert_int_equal(ambulo_model_load("models/lower_body_21.yaml", NULL, NULL, NULL, &other),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_muscles_load("models/leg_muscles.yaml", other, NULL, NULL, &muscles),
+                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_muscle_analysis_of_result(w->problem, w->result, muscles, 0, NULL, NULL, &a),
+      AMBULO_E_ARGUMENT);
+  ambulo_muscles_free(muscles);
+  ambulo_model_free(other);
+  ambulo_result_free(endless);
+  ambulo_diagnostics_free(list);
+}
+
 /* ----------------------------------------------------------------- what is told */
 
 /* the list of what analysing `path` says is exactly `message` (NULL: nothing) behind its name */
@@ -252,16 +311,18 @@ static void memory_may_run_out_anywhere(void **state) {
   const walk_muscles *w = *state;
   long refused = 0;
   write_table(w, "mine", 4, NULL);
-  for (int once = 0; once < 2; once++)
+  for (int way = 0; way < 4; way++)
     for (long k = 0;; k++) {
       assert_in_range(k, 0, 5000);
       fail_alloc memory = fail_alloc_at(k);
-      memory.only_once = once;
+      memory.only_once = way % 2;
       ambulo_allocator hook = fail_alloc_hook(&memory);
       ambulo_muscle_analysis *a = NULL;
       ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
       ambulo_status status =
-          ambulo_muscle_analysis_create(w->muscles, w->other, NULL, &hook, list, &a);
+          way < 2 ? ambulo_muscle_analysis_create(w->muscles, w->other, NULL, &hook, list, &a)
+                  : ambulo_muscle_analysis_of_result(w->problem, w->result, w->muscles, 4, &hook,
+                                                     list, &a);
       assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
       assert_int_equal(a != NULL, status == AMBULO_OK);
       if (status) assert_message(list, 0, "error[E_MEMORY]");
@@ -280,6 +341,8 @@ int main(void) {
       cmocka_unit_test(joints_bear_the_ground_and_the_muscles),
       cmocka_unit_test(means_are_those_of_the_rows),
       cmocka_unit_test(a_price_of_power_saves_power),
+      cmocka_unit_test(a_result_has_the_muscles_of_its_table),
+      cmocka_unit_test(a_result_without_muscles_has_none),
       cmocka_unit_test(tables_that_are_none),
       cmocka_unit_test(the_motion_of_another_body_is_warned_of),
       cmocka_unit_test(paths_beyond_their_range_are_warned_of),

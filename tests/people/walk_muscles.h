@@ -11,6 +11,7 @@
 typedef struct walk_muscles {
   void *scratch;
   ambulo_problem *problem;
+  ambulo_result *result;
   const ambulo_model *model;
   ambulo_muscles *muscles;
   ambulo__motion *table;
@@ -20,7 +21,6 @@ typedef struct walk_muscles {
 /* cmocka setup and teardown of a group */
 static inline int open_walk_muscles(void **state) {
   static walk_muscles w;
-  ambulo_result *result = NULL;
   char folder[SCRATCH_PATH + 16];
   if (scratch_open(&w.scratch)) return -1;
   (void)snprintf(folder, sizeof folder, "%s/walk", (char *)w.scratch);
@@ -28,11 +28,10 @@ static inline int open_walk_muscles(void **state) {
   (void)snprintf(w.other, sizeof w.other, "%s/other.csv", (char *)w.scratch);
   ambulo_report_options report = ambulo_report_options_default();
   if (ambulo_problem_load("models/walk.yaml", NULL, 0, NULL, NULL, &w.problem) ||
-      ambulo_solve(w.problem, NULL, NULL, NULL, NULL, &result) ||
-      ambulo_report_write(w.problem, result, folder, &report, NULL, NULL) ||
+      ambulo_solve(w.problem, NULL, NULL, NULL, NULL, &w.result) ||
+      ambulo_report_write(w.problem, w.result, folder, &report, NULL, NULL) ||
       ambulo__motion_read(w.path, 0, NULL, NULL, &w.table))
     return -1;
-  ambulo_result_free(result);
   w.model = ambulo_problem_model(w.problem);
   *state = &w;
   return ambulo_muscles_load("models/leg_muscles.yaml", w.model, NULL, NULL, &w.muscles) ? -1 : 0;
@@ -42,6 +41,7 @@ static inline int close_walk_muscles(void **state) {
   walk_muscles *w = *state;
   ambulo__motion_free(w->table);
   ambulo_muscles_free(w->muscles);
+  ambulo_result_free(w->result);
   ambulo_problem_free(w->problem);
   return scratch_close(&w->scratch);
 }

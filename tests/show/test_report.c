@@ -41,6 +41,43 @@ static void test_complete(void **state) {
   walk_close(&w);
 }
 
+/* muscles come with the rest or not at all, in the words of summary.json too */
+static void test_muscles(void **state) {
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  ambulo_report_options options = ambulo_report_options_default();
+  const char *const set = "time.intervals=24";
+  assert_int_equal(ambulo_problem_load("models/walk_muscles.yaml", &set, 1, NULL, NULL, &problem),
+                   AMBULO_OK);
+  assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
+  const char *folder = scratch_path(state, "result");
+  for (int times = 0; times < 2; times++) {
+    options.overwrite = times; /* a folder with muscles is one of ambulo's */
+    assert_int_equal(ambulo_report_write(problem, result, folder, &options, NULL, NULL), AMBULO_OK);
+    assert_int_equal(entries_in(folder), 7);
+  }
+  char *text = NULL, *summary = read_text(inside(folder, "summary.json"));
+  char *table = read_text(inside(folder, "muscles.csv"));
+  assert_int_equal(ambulo_report_summary(problem, result, &options, NULL, &text), AMBULO_OK);
+  assert_string_equal(text, summary);
+  assert_non_null(strstr(text, "\"muscles\": {"));
+  assert_non_null(strstr(text, "\"bhargava_per_kg_metre\": "));
+  assert_null(strstr(text, "\"metabolic_per_kg_metre\": "));
+  assert_non_null(strstr(table, "\ntime,activation.addbrev_r,"));
+  ambulo_text_free(text, NULL);
+  free(summary);
+  free(table);
+  result->x[0] = (double)NAN;
+  folder = scratch_path(state, "endless");
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo_report_write(problem, result, folder, &options, NULL, list), AMBULO_OK);
+  assert_message(list, 0, "the motion is not finite; the result is without muscles");
+  assert_int_equal(entries_in(folder), 6);
+  ambulo_diagnostics_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 /* people stand behind the curves where their folder is given; no result is lost over them */
 static void test_people(void **state) {
   walk w;
@@ -192,6 +229,7 @@ static void test_out_of_memory(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(test_complete),
+                                     SCRATCH_TEST(test_muscles),
                                      SCRATCH_TEST(test_people),
                                      SCRATCH_TEST(test_replaced_only_on_request),
                                      SCRATCH_TEST(test_a_folder_of_others_is_kept),
