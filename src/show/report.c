@@ -237,8 +237,9 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
 
 /* the picture and the scene; no result is lost over curves of people that cannot be read */
 static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *result,
-                          const char *norms, ambulo__folder *folder, ambulo__text_buffer *text,
-                          ambulo_diagnostics *diagnostics) {
+                          const ambulo_report_options *options, ambulo__folder *folder,
+                          ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
+  const char *norms = options->norms;
   ambulo__people people = {.count = 0};
   ambulo_status status = AMBULO_OK;
   int wanted = norms && ambulo__gait_is_walk(problem);
@@ -252,7 +253,7 @@ static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *re
   const ambulo__people *beside = wanted && !status ? &people : NULL;
   status = ambulo__gait_svg(problem, result, beside, text);
   if (!status) status = write_text(folder, "gait.svg", text, diagnostics);
-  if (!status) status = ambulo__scene_json(problem, result, beside, text);
+  if (!status) status = ambulo__scene_json(problem, result, beside, options->muscles, text);
   if (!status) status = write_text(folder, "scene.json", text, diagnostics);
   ambulo__people_free(&people);
   return status;
@@ -284,7 +285,7 @@ static ambulo_status write_all(const ambulo_problem *problem, const ambulo_resul
   status = write_text(folder, "solution.yaml", text, diagnostics);
   if (status) return status;
   status = write_motion(problem, result, options->samples, folder, text, diagnostics);
-  return status ? status : draw(problem, result, options->norms, folder, text, diagnostics);
+  return status ? status : draw(problem, result, options, folder, text, diagnostics);
 }
 
 ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_result *result,

@@ -209,6 +209,7 @@ static void units(ambulo__json *json) {
   ambulo__json_number(json, "torque", AMBULO__SCENE_TORQUE);
   ambulo__json_number(json, "power", AMBULO__SCENE_POWER);
   ambulo__json_number(json, "force", AMBULO__SCENE_FORCE);
+  ambulo__json_number(json, "activation", AMBULO__SCENE_ACTIVATION);
   ambulo__json_close(json, '}');
 }
 
@@ -260,14 +261,18 @@ static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s) {
 }
 
 ambulo_status ambulo__scene_json(const ambulo_problem *problem, const ambulo_result *result,
-                                 const ambulo__people *people, ambulo__text_buffer *text) {
+                                 const ambulo__people *people, const ambulo_muscles *muscles,
+                                 ambulo__text_buffer *text) {
   ambulo__json json = {.text = text, .first = 1};
+  ambulo_muscle_analysis *analysis = NULL;
   ambulo__stride stride = {.samples = 0};
   ambulo__gait_people beside = {.people = NULL};
   ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result),
                                                AMBULO__SCENE_SAMPLES, &text->allocator, &stride);
   if (status) return status;
-  status = ambulo__gait_people_create(&stride, people, &text->allocator, &beside);
+  status = ambulo_muscle_analysis_of_result(problem, result, muscles, AMBULO__SCENE_SAMPLES,
+                                            &text->allocator, NULL, &analysis);
+  if (!status) status = ambulo__gait_people_create(&stride, people, &text->allocator, &beside);
   if (!status) {
     begin(&json, stride.model, ambulo_problem_name(problem), stride.samples, stride.duration);
     about_problem(&json, &stride);
@@ -275,7 +280,9 @@ ambulo_status ambulo__scene_json(const ambulo_problem *problem, const ambulo_res
   }
   if (!status) status = body_of(&json, &stride);
   if (!status) status = ambulo__scene_curves(&json, &stride, &beside);
+  if (!status && analysis) status = ambulo__scene_muscles(&json, &stride, analysis);
   if (!status) ambulo__json_close(&json, '}');
+  ambulo_muscle_analysis_free(analysis);
   ambulo__gait_people_free(&beside);
   ambulo__stride_free(&stride);
   return status ? status : ambulo__text_status(text);

@@ -11,6 +11,7 @@
 #include "base/text_buffer.h"
 #include "formats/json_text.h"
 #include "people/compare.h"
+#include "people/muscle_analysis.h"
 #include "people/stride.h"
 #include "show/gait_people.h"
 #include "show/skeleton.h"
@@ -72,6 +73,7 @@ ambulo_status ambulo__scene_worn(ambulo__json *json, const ambulo__stride *strid
 #define AMBULO__SCENE_TORQUE 1e-2 /* N m */
 #define AMBULO__SCENE_POWER 1e-1  /* W */
 #define AMBULO__SCENE_FORCE 1e-1  /* N */
+#define AMBULO__SCENE_ACTIVATION 5e-3
 
 /* values[k * step], k < count. One that is not finite, or beyond 2^40 units, takes the number
  * before it, the first zero; the others are within half a unit. `key` is NULL inside of arrays. */
@@ -89,6 +91,11 @@ ambulo_status ambulo__scene_curves(ambulo__json *json, const ambulo__stride *str
 void ambulo__scene_coordinates(ambulo__json *json, const ambulo_model *model, const double *q,
                                int samples);
 
+/* "muscles": lines on links, activations, contact forces; of the stride's own samples. Errors:
+ * E_MEMORY. */
+ambulo_status ambulo__scene_muscles(ambulo__json *json, const ambulo__stride *stride,
+                                    const ambulo_muscle_analysis *analysis);
+
 /* scene.json: what of a motion is drawn in space, and its curves
  * (docs/results.md).
  *
@@ -104,10 +111,11 @@ void ambulo__scene_coordinates(ambulo__json *json, const ambulo_model *model, co
 #define AMBULO__SCENE_SCHEMA "ambulo-scene/1"
 enum { AMBULO__SCENE_SAMPLES = 161 };
 
-/* Of a result; `people` (NULL: none) beside the curves of a walk (show/gait_people.h).
- * Errors: E_MEMORY. */
+/* Of a result; `people` (NULL: none) beside the curves of a walk (show/gait_people.h); who makes
+ * the motion (NULL: the problem's own muscles, if any). Errors: E_ARGUMENT, E_MEMORY. */
 ambulo_status ambulo__scene_json(const ambulo_problem *problem, const ambulo_result *result,
-                                 const ambulo__people *people, ambulo__text_buffer *text);
+                                 const ambulo__people *people, const ambulo_muscles *muscles,
+                                 ambulo__text_buffer *text);
 
 /* Of a motion that nobody predicted: q [samples][coordinates], rad and m, evenly spaced over
  * `duration` s; `ground` m along up. Without forces and surroundings. Errors: E_MEMORY. */

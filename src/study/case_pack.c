@@ -23,6 +23,7 @@ static const char *const kept[][DEPTH] = {
     {"work", "negative"},
     {"work", "metabolic_per_kg_metre"},
     {"work", "people_per_kg_metre"},
+    {"muscles", "metabolic"},
     {"center_of_mass"},
     {"audit", "fault"},
     {"audit", "violation"},
@@ -178,9 +179,11 @@ static void summary(shown_case *c, const ambulo__yaml_node *map, const char **pa
   ambulo__text_append_char(&c->tree, '}');
 }
 
-/* `input_hash` and the units, in which series do not stand any more, are left out */
+/* `input_hash` and the units, in which series do not stand any more, are left out; and muscles, of
+ * which a page of many cases would be made */
 static void scene(shown_case *c, const ambulo__yaml_node *map) {
-  static const char *const left[] = {"schema", "model", "input_hash", "units", "samples"};
+  static const char *const left[] = {"schema", "model",   "input_hash",
+                                     "units",  "samples", "muscles"};
   int written = 0;
   ambulo__text_append_char(&c->tree, '{');
   for (int i = 0; i < ambulo__yaml_pairs(map); i++) {
