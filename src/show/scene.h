@@ -73,7 +73,7 @@ ambulo_status ambulo__scene_worn(ambulo__json *json, const ambulo__stride *strid
 #define AMBULO__SCENE_TORQUE 1e-2 /* N m */
 #define AMBULO__SCENE_POWER 1e-1  /* W */
 #define AMBULO__SCENE_FORCE 1e-1  /* N */
-#define AMBULO__SCENE_ACTIVATION 5e-3
+#define AMBULO__SCENE_ACTIVATION 1e-3
 
 /* values[k * step], k < count. One that is not finite, or beyond 2^40 units, takes the number
  * before it, the first zero; the others are within half a unit. `key` is NULL inside of arrays. */

@@ -14,6 +14,32 @@ const rank = (name) => {
   return i < 0 ? first.length : i;
 };
 
+const largestFirst = (map, size) => [...map].sort((a, b) => size(b[1]) - size(a[1]));
+
+// mean activation of each group, by strength, from the strongest group on; what joints bear
+function muscleTabs({ muscles, joints }, weight) {
+  const mean = (list) => {
+    const out = new Float64Array(list[0].activation.length);
+    const all = list.reduce((sum, m) => sum + m.strength, 0);
+    for (const m of list) m.activation.forEach((a, k) => { out[k] += (m.strength / all) * a; });
+    return out;
+  };
+  const bySide = (list, values) => sides.map((side) => [side, list.filter((x) => x.side === side)])
+    .filter(([, own]) => own.length).map(([side, own]) => ({ side, values: values(own) }));
+  const gathered = (list, key) => list.reduce((map, x) =>
+    map.set(key(x), [...(map.get(key(x)) ?? []), x]), new Map());
+  const groups = largestFirst(gathered(muscles, (m) => m.group || m.name),
+    (list) => list.reduce((sum, m) => sum + m.strength, 0));
+  const tabs = [{ name: "Muscles", charts: groups.map(([name, list]) => ({ title: spoken(name, false),
+    unit: "activation", limits: [], curves: bySide(list, mean) })) }];
+  const sizeOf = ([{ force: [f, l, u] }]) =>
+    Float64Array.from(f, (x, k) => Math.hypot(x, l[k], u[k]) / weight);
+  if (joints.length) tabs.push({ name: "Joints", charts: [...gathered(joints, (j) => spoken(j.name, false))]
+    .map(([name, list]) => ({ title: `contact force, ${name}`, unit: "body weights", limits: [],
+      curves: bySide(list, sizeOf) })) });
+  return tabs;
+}
+
 // what can be shown of a scene: tabs of charts, each with one curve or a pair
 export function tabsOf(scene) {
   const mass = scene.mass || 1, weight = scene.weight || 1;
@@ -52,6 +78,7 @@ export function tabsOf(scene) {
         people: people(axis === 2 ? f.people_up : axis === 0 ? f.people_forward : null, 1 / weight) })),
     })) });
   }
+  if (scene.muscles) tabs.push(...muscleTabs(scene.muscles, weight));
   const devices = scene.worn.filter((w) => w.kind === "device");
   if (devices.length) tabs.push({ name: "Devices", charts: devices.map((d) => ({
     title: spoken(d.name), unit: d.unit, limits: [],

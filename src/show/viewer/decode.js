@@ -55,6 +55,13 @@ export function unpack(raw) {
     ...w,
     effort: w.effort && series(w.effort, w.unit === "N" ? u.force : u.torque),
   }));
+  scene.muscles = raw.muscles && {
+    ...raw.muscles,
+    muscles: raw.muscles.muscles.map((m) => ({ ...m, activation: series(m.activation, u.activation) })),
+    frames: raw.muscles.frames.map((frame) => frame.map((p) => places(p, u.length))),
+    joints: raw.muscles.joints.map((j) => ({ ...j, at: places(j.at, u.length),
+      force: places(j.force, u.force) })),
+  };
   scene.ground = raw.ground ?? { is_there: 1, slope: 0, surfaces: [] };
   scene.obstacles = raw.obstacles ?? [];
   scene.places = raw.places ?? [];

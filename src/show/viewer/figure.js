@@ -70,7 +70,7 @@ export class Figure {
     for (const foot of scene.feet) if (foot.sole.length === 4) this.addShoe(foot);
     if (!scene.ground.is_there) this.addPivot();
     this.addCarried();
-    this.showBones(false);
+    this.showBones(false, false);
   }
 
   addMesh(geometry, material, parent = this.flesh) {
@@ -272,14 +272,14 @@ export class Figure {
       });
   }
 
-  // thin lines seen through the body, or the body alone
-  showBones(on) {
+  // thin lines or muscles seen through the body, or the body alone
+  showBones(on, through) {
     this.lines.visible = on || !this.flesh.children.length;
     if (this.ghost) return;
     for (const m of Object.values(this.materials)) {
-      m.transparent = on;
-      m.opacity = on ? 0.22 : 1;
-      m.depthWrite = !on;
+      m.transparent = through;
+      m.opacity = through ? 0.22 : 1;
+      m.depthWrite = !through;
       m.needsUpdate = true;
     }
   }

@@ -74,7 +74,12 @@ function keyNumbers(summary) {
   const peaks = Object.entries(ground ?? {}).filter(([, f]) => f.peak > 0);
   if (peaks.length) add("largest force", peaks.slice(0, 3)
     .map(([name, f]) => `${spoken(name)} ${short(f.peak)}`).join(", ") + " body weights");
-  if (work?.metabolic_per_kg_metre) {
+  const { metabolic } = summary.muscles ?? {};
+  if (metabolic) {
+    const way = metabolic.bhargava_per_kg_metre;
+    add("metabolic power of muscles", `${short(metabolic.bhargava)} W/kg`
+      + (way ? `; ${short(way)} J/(kg m)` : ""));
+  } else if (work?.metabolic_per_kg_metre) {
     const people = work.people_per_kg_metre;
     add("metabolic cost, estimated", `${short(work.metabolic_per_kg_metre)} J/(kg m)`
       + (people ? `; people ${short(people)}` : ""));

@@ -7,11 +7,12 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { css } from "./dom.js";
 import { sampleAt, valueAt } from "./decode.js";
 import { Figure, toView } from "./figure.js";
+import { Muscles } from "./muscles.js";
 import { Arrow, World } from "./world.js";
 
 const forceLength = 0.9; // m for the body weight
 const names = ["left", "right", "middle", "carried", "device", "ghost", "floor", "grid", "step",
-  "step2", "obstacle", "place", "pressure", "force", "mass", "sky"];
+  "step2", "obstacle", "place", "pressure", "force", "mass", "sky", "muscle", "active", "contact"];
 const readColors = () => Object.fromEntries(names.map((n) => [n, css(`--${n}`)]));
 
 export function hasWebGL() {
@@ -42,7 +43,7 @@ export class Stage {
     this.scene.add(this.root);
     this.lights();
     this.shows = { forces: true, prints: true, paths: false, mass: false, bones: false,
-      ghost: true, follow: true };
+      ghost: true, follow: true, muscles: true, contacts: false };
     this.time = 0;
     this.period = 0;
     this.focus = new Vector3();
@@ -84,6 +85,8 @@ export class Stage {
     }
     this.arrows = data.forces.map((f) => ({ force: f, arrow: new Arrow(colors.force) }));
     for (const { arrow } of this.arrows) this.figures.add(arrow.group);
+    this.muscles = data.muscles && new Muscles(data, colors);
+    if (this.muscles) this.figures.add(this.muscles.group);
     this.massBall = new Mesh(new SphereGeometry(0.045, 20, 14),
       new MeshBasicMaterial({ color: colors.mass, depthTest: false, transparent: true }));
     this.massBall.renderOrder = 5;
@@ -114,7 +117,7 @@ export class Stage {
       if (o.isInstancedMesh) o.visible = shows.paths;
       else if (o.isMesh) o.visible = shows.prints;
     });
-    this.figure.showBones(shows.bones);
+    this.figure.showBones(shows.bones, shows.bones || Boolean(this.muscles && shows.muscles));
     if (this.ghost) this.ghost.group.visible = shows.ghost;
     this.massBall.visible = shows.mass;
     this.moveTo(this.time, this.period, this.ghostTime);
@@ -135,6 +138,7 @@ export class Stage {
     toView(...mass, this.massBall.position);
     if (this.ghost) this.placeGhost(where, ghostTime);
     this.placeArrows(where);
+    this.muscles?.pose(where, this.shows);
     const center = toView(...mass).add(this.figures.position).applyAxisAngle(
       new Vector3(0, 0, 1), data.ground.slope);
     if (this.shows.follow && data.ground.is_there) this.goAlong(center);
