@@ -222,6 +222,33 @@
     check("verdict, sensitivities, objective, convergence, versions", ["Verdict and audit", "What costs what",
       "Objective by term", "How the solve went", "Versions"].every((w) => words().includes(w)));
     check("the failure box is empty", !$("failure").textContent);
+    check("no control for what is not there", !["muscles", "contacts"].some((key) =>
+      shown(document.querySelector(`[data-show=${key}]`))));
+  } else if (kind === "muscles") {
+    await frame();
+    names();
+    scrub(0.4);
+    for (const [key, on] of [["muscles", true], ["contacts", false]]) {
+      const box = document.querySelector(`[data-show=${key}]`), whole = await picture();
+      check(`${key} are ${on ? "" : "not "}shown at first`, shown(box) && box.checked === on);
+      box.click();
+      check(`shows ${key} or not`, apart(whole, await picture()) > 0.01, key);
+      box.click();
+      check(`and ${key} as before`, apart(whole, await picture()) < 0.02, key);
+    }
+    const { muscles } = globalThis.ambulo.scene();
+    check("activations are shares", muscles.muscles.length === 80 && muscles.muscles.every((m) =>
+      m.activation.every((a) => a >= 0 && a <= 1)));
+    for (const [name, charts] of [["Muscles", 6], ["Joints", 3]]) {
+      const tab = [...document.querySelectorAll("[role=tab]")].find((t) => t.textContent === name);
+      tab.click();
+      await frame();
+      check(`curves of ${name}`, document.querySelectorAll(".chart").length === charts
+        && document.querySelectorAll(".chart:first-child .values span").length === 2);
+    }
+    const said = $("panels").textContent;
+    check("their power is said in place of an estimate", /metabolic power of muscles.*W\/kg/.test(said)
+      && !/cost, estimated/.test(said));
   } else if (kind === "failed") {
     await frame();
     names();
