@@ -44,7 +44,7 @@ static void free_run(run *r) {
 
 /* ------------------------------------------------------------------- momenta */
 
-enum { COORDINATES = 29, FEET = 2 }; /* at most */
+enum { COORDINATES = 31, FEET = 2 }; /* at most */
 
 static const double apart = 1e-5; /* s: between the poses */
 
