@@ -13,7 +13,7 @@ typedef enum ambulo__stage {
 
 /* From x (in and out); run->ending says why it ended. The last multipliers stay in the engine's
  * iterate, the last point of AUGLAG in engine->reached. Rows between bodies join as they come near
- * (near.c): the engine may then be another inside. */
+ * (near.c): the engine may then be another inside, so x is not of its pool. */
 ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__stage stage, double *x);
 /* The same with the rows that the engine has. */
 ambulo_status ambulo__pipeline_of_set(ambulo__engine *engine, ambulo__stage stage, double *x);

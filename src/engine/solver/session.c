@@ -1,4 +1,4 @@
-/* solver/session.c - one call: its options, its memory, the points it came by, their audit.
+/* solver/session.c - one call: its options, the points it came by, their audit.
  *
  * The result's numbers are those of the audit (solver/audit.c). A point that holds its rows and is
  * not shown to be optimal is the next start: AUGLAG begins afresh there, in turns with the penalty
@@ -8,9 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/arithmetic.h"
-#include "base/machine.h"
 #include "base/sized.h"
-#include "method/metric.h"
 #include "method/pipeline.h"
 #include "method/point.h"
 #include "problem/definition.h"
@@ -38,91 +36,6 @@ ambulo_status ambulo__options_own(const ambulo_problem *problem, const ambulo_op
     return ambulo__option_ranges_check(own, diagnostics);
   return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                        "solver options did not come from ambulo_options_default()");
-}
-
-/* --------------------------------------------------------------------- memory
- * With n unknowns, k diagonals below the main one, m rows, q border rows and J entries in the rows'
- * gradients, what an engine takes (engine.c), in bytes:
- *
- *     8 n (k + 28)       each of three band matrices: metric, whitener, KKT factor
- *     21 J               gradients: value, column, run; slopes by the motion, 3/5 as many
- *     8 n (16 + 12)      vectors, and the mixing of five iterates
- *     8 * 14 m           values, multipliers and marks of rows
- *     8 n (q + 32)       columns of the border, and of rows that come and go (border.h)
- *
- * Meanwhile a coarser grid may be solved (half as much again at the most); afterwards an audit on a
- * finer grid or an explanation (two more bands, all gradients) may follow. The largest counts.
- */
-
-static const double gigabyte = 1073741824.0;
-static const double coarse_share = 0.5;
-static const double margin = 1.15; /* what is not counted: names, lists, rounding to tiles */
-
-/* columns that a channel depends on at one node, times the control points of the node */
-static double columns_of(const ambulo_problem *p, int channel) {
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  ambulo__row_part part[AMBULO__MOST_PARTS];
-  int output = channel - ambulo__channel_outputs(&p->channels), most = 1;
-  if (output < 0) return ambulo__basis_span(p->basis);
-  int parts = ambulo__plan_parts(p->plan, output, part);
-  for (int k = 0; k < parts; k++) {
-    int count = pattern.start[part[k].row + 1] - pattern.start[part[k].row];
-    if (count > most) most = count;
-  }
-  return (double)most * ambulo__basis_span(p->basis);
-}
-
-/* entries of the gradients of all rows: of each the widest channel that it looks at */
-static double entries_of(const ambulo_problem *p) {
-  double sum = 0.0;
-  for (int r = 0; r < p->rows; r++) {
-    const ambulo__table_row *row = &p->table.rows[r];
-    const ambulo__row_term *term = p->table.terms + row->first_term;
-    double widest = row->user >= 0 ? ambulo__basis_span(p->basis) * p->coordinates : 1.0;
-    for (int t = 0; t < row->term_count; t++) {
-      double columns = term[t].node < 0 ? 1.0 : columns_of(p, term[t].channel);
-      if (columns > widest) widest = columns;
-    }
-    sum += row->node < 0 ? 2.0 * widest : widest;
-  }
-  return sum;
-}
-
-ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
-  double n = p->variables, k = ambulo__metric_diagonals(p) + 28.0, word = sizeof(double);
-  double entries = 21.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
-  double bands = 3.0 * word * n * k, vectors = word * (28.0 * n + 14.0 * p->rows);
-  double columns = word * n * (borders + 32.0);
-  ambulo_memory memory;
-  memory.problem = ambulo__row_bytes(p, p->rows) + 400.0 * p->nodes;
-  memory.evaluation = ambulo__workspace_bytes(p, 1);
-  double engine = memory.evaluation + bands + entries + vectors + columns;
-  double coarse = coarse_share * (engine + memory.problem);
-  int samples = ambulo__dense_samples(p, ambulo_options_default().dense_samples);
-  double values = ambulo__workspace_bytes(p, 0) - ambulo__slope_bytes(p);
-  double dense = samples < 2 ? 0.0 : samples * (memory.problem + values);
-  double explanation = 2.0 / 3.0 * bands + entries + columns;
-  double after = dense > explanation ? dense : explanation;
-  memory.solve = margin * (memory.problem + engine + (coarse > after ? coarse : after));
-  return memory;
-}
-
-ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_options *o,
-                                         ambulo_diagnostics *diagnostics) {
-  double most = o->maximum_memory, bytes = ambulo_problem_memory(p).solve;
-  const char *what = "solver.maximum_memory";
-  if (isnan(most)) {
-    most = 1048576.0 * ambulo__free_megabytes();
-    what = "free";
-  }
-  if (most == 0.0 || bytes <= most) return AMBULO_OK;
-  return ambulo__error(
-      diagnostics, AMBULO_E_LIMIT, ambulo__nowhere,
-      "lower trajectory.intervals or time.intervals, or raise solver.maximum_memory",
-      "the solve takes about %.3g GB (%d unknowns, %d diagonals, %d rows); expected "
-      "at most %.3g GB (%s)",
-      bytes / gigabyte, p->variables, ambulo__metric_diagonals(p) + 1, p->rows, most / gigabyte,
-      what);
 }
 
 /* ----------------------------------------------------------------- candidates */
@@ -250,18 +163,10 @@ static ambulo_status look_again(ambulo__session *s) {
   return status;
 }
 
-/* Why there is no solution, as far as is known. Where the least violated motion holds every row it
- * is a start, and its rows stay held: the solver missed it. */
-static ambulo_status explain_or_recover(ambulo__session *s) {
+/* A run from the least violated motion, which holds every row: the solver had missed it. */
+static ambulo_status recover(ambulo__session *s, double *nearest) {
   ambulo_result *r = s->result;
-  double *nearest = ambulo__pool_doubles(&s->engine->pool, (size_t)s->engine->setup->n);
-  if (!nearest) return AMBULO_E_MEMORY;
-  r->ending_code = s->run.ending;
-  s->run.stage = "explanation";
-  ambulo_status status = ambulo__explain(s->engine, r, nearest);
-  const ambulo_explanation *e = ambulo_result_explanation(r);
-  if (status || !e || !e->feasible_point || ambulo__is_limit(s->run.ending)) return status;
-  if (ambulo__run_over(&s->run)) return AMBULO_OK;
+  ambulo_status status = AMBULO_OK;
   s->run.stage = "solve";
   ambulo__candidates_offer(&s->candidates, s->engine, nearest);
   if (s->engine->setup->rows->regular) {
@@ -277,6 +182,24 @@ static ambulo_status explain_or_recover(ambulo__session *s) {
   r->explanation = NULL;
   s->note = "; from the motion nearest to where it had stalled that holds every row";
   return look_again(s);
+}
+
+/* Why there is no solution, as far as is known. Memory of its own: a run may renew the engine and
+ * its pool. */
+static ambulo_status explain_or_recover(ambulo__session *s) {
+  ambulo_result *r = s->result;
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  double *nearest = ambulo__alloc(&a, (size_t)s->engine->setup->n, sizeof *nearest);
+  if (!nearest) return AMBULO_E_MEMORY;
+  r->ending_code = s->run.ending;
+  s->run.stage = "explanation";
+  ambulo_status status = ambulo__explain(s->engine, r, nearest);
+  const ambulo_explanation *e = ambulo_result_explanation(r);
+  int recovers = !status && e && e->feasible_point && !ambulo__is_limit(s->run.ending) &&
+                 !ambulo__run_over(&s->run);
+  if (recovers) status = recover(s, nearest);
+  ambulo__free(&a, nearest);
+  return status;
 }
 
 /* the run ended before there was an engine: what the start is */
