@@ -129,7 +129,7 @@ static void gather(const ambulo_sensitivity_list *list, lines *all) {
 static int is_quick(const char *problem) {
   static const char *const quick[] = {"fig5b_torque",
                                       "pendulum_swing",
-                                      "run_forefoot",
+                                      "support/forefoot_run_without_toes",
                                       "support/rigid_squat",
                                       "support/rigid_stairs_down",
                                       "support/rigid_stairs_up",
