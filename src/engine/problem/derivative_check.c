@@ -7,9 +7,9 @@
  * |analytic - numeric| / max(1, |row|), |row| the largest analytic entry of its row. With h about
  * eps^(1/3) the difference itself is good to about 1e-9 of the row's size.
  *
- * It is done with h and with h / 16, and the nearer difference counts.
+ * It is done with h, h / 16 and h / 256, and the nearest difference counts.
  *
- * The check needs eight evaluations per unknown and rows * unknowns comparisons; it is meant
+ * The check needs twelve evaluations per unknown and rows * unknowns comparisons; it is meant
  * for grids of a few hundred unknowns.
  */
 #include "base/arithmetic.h"
@@ -26,7 +26,7 @@ typedef struct check {
   double *x;            /* [variables] the moved point */
   double *minus, *plus; /* [rows + terms] values at both sides */
   double *slope;        /* [rows + terms] D(h) */
-  double *first;        /* [rows + terms] differences with the longer step */
+  double *nearest;      /* [rows + terms] of the differences with several steps */
   double *size;         /* [rows + terms] largest analytic entry */
   double *analytic;     /* [rows + terms][variables] */
   ambulo_derivative_error *errors;
@@ -139,23 +139,23 @@ static double entry_error(const check *c, int line, int j, double numeric) {
   return fabs(analytic - numeric) / fmax(1.0, c->size[line]);
 }
 
-/* Two steps: the long one suffers less from rounding, the short one less from sharply bent
- * functions. A right entry agrees with one of them, a wrong one with neither. */
+/* Long steps suffer less from rounding, short ones less from sharply bent functions. A right entry
+ * agrees with one of them, a wrong one with none. */
 static ambulo_status compare_variable(check *c, const double *x, int j, double step) {
+  static const double parts[] = {1.0, 1.0 / 16.0, 1.0 / 256.0};
   int lines = c->problem->rows + c->problem->definition.term_count;
   double h = step * fmax(1.0, fabs(x[j]));
-  ambulo_status status = extrapolate(c, x, j, h);
-  if (status) return status;
-  memcpy(c->first, c->slope, (size_t)lines * sizeof *c->first);
-  status = extrapolate(c, x, j, h / 16.0);
-  for (int line = 0; !status && line < lines; line++) {
-    double longer = entry_error(c, line, j, c->first[line]);
-    double shorter = entry_error(c, line, j, c->slope[line]);
-    int take_longer = longer <= shorter;
-    describe(c, line, j, take_longer ? c->first[line] : c->slope[line],
-             take_longer ? longer : shorter);
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+    ambulo_status status = extrapolate(c, x, j, parts[k] * h);
+    if (status) return status;
+    for (int line = 0; line < lines; line++)
+      if (k == 0 ||
+          entry_error(c, line, j, c->slope[line]) < entry_error(c, line, j, c->nearest[line]))
+        c->nearest[line] = c->slope[line];
   }
-  return status;
+  for (int line = 0; line < lines; line++)
+    describe(c, line, j, c->nearest[line], entry_error(c, line, j, c->nearest[line]));
+  return AMBULO_OK;
 }
 
 static void row_sizes(check *c) {
@@ -194,17 +194,17 @@ ambulo_status ambulo_problem_check_derivatives(const ambulo_problem *p, ambulo_w
   c.minus = ambulo__alloc(a, lines, sizeof(double));
   c.plus = ambulo__alloc(a, lines, sizeof(double));
   c.slope = ambulo__alloc(a, lines, sizeof(double));
-  c.first = ambulo__alloc(a, lines, sizeof(double));
+  c.nearest = ambulo__alloc(a, lines, sizeof(double));
   c.size = ambulo__alloc(a, lines, sizeof(double));
   c.analytic = n && lines > SIZE_MAX / n ? NULL : ambulo__alloc(a, lines * n, sizeof(double));
   ambulo_status status = AMBULO_E_MEMORY;
-  if (c.x && c.minus && c.plus && c.slope && c.first && c.size && c.analytic)
+  if (c.x && c.minus && c.plus && c.slope && c.nearest && c.size && c.analytic)
     status = run(&c, x, step > 0.0 ? step : cbrt(DBL_EPSILON));
   ambulo__free(a, c.x);
   ambulo__free(a, c.minus);
   ambulo__free(a, c.plus);
   ambulo__free(a, c.slope);
-  ambulo__free(a, c.first);
+  ambulo__free(a, c.nearest);
   ambulo__free(a, c.size);
   ambulo__free(a, c.analytic);
   if (!status) *count = c.count;
