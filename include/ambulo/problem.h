@@ -278,6 +278,8 @@ AMBULO_API void ambulo_problem_free(ambulo_problem *problem); /* accepts NULL */
 
 AMBULO_API const char *ambulo_problem_name(const ambulo_problem *problem);
 AMBULO_API const ambulo_model *ambulo_problem_model(const ambulo_problem *problem);
+/* NULL: none. */
+AMBULO_API const ambulo_muscles *ambulo_problem_muscles(const ambulo_problem *problem);
 AMBULO_API double ambulo_problem_duration(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_node_count(const ambulo_problem *problem); /* N + 1 */
 /* Time of node `node`, s; NaN: no such node. */

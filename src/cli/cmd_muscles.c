@@ -23,6 +23,20 @@ static void find_motion(const char *argument, job *j) {
   ambulo__cli_format(j->motion, sizeof j->motion, "%s%s", argument, folder ? "/motion.csv" : "");
 }
 
+/* those of a file; of the problem, on the body as options change it; else the shipped ones */
+static ambulo_status load_muscles(const ambulo__cli_input *input, job *j) {
+  const char *file = ambulo__cli_value(input, "muscles");
+  const ambulo_muscles *own = j->body.problem ? ambulo_problem_muscles(j->body.problem) : NULL;
+  if (file || !own)
+    return ambulo__cli_load_muscles(file, j->body.model, j->diagnostics, &j->muscles);
+  ambulo_muscles_definition d = ambulo_muscles_definition_default();
+  d.name = ambulo_muscles_name(own);
+  d.source = ambulo_muscles_source(own);
+  d.muscles = ambulo_muscles_get(own, 0);
+  d.muscle_count = ambulo_muscles_count(own);
+  return ambulo_muscles_create(j->body.model, &d, NULL, j->diagnostics, &j->muscles);
+}
+
 static ambulo_status analyse(const ambulo__cli_input *input, job *j, int overwrite) {
   ambulo_muscle_options options = ambulo_muscle_options_default();
   const char *output = ambulo__cli_value(input, "output");
@@ -34,8 +48,7 @@ static ambulo_status analyse(const ambulo__cli_input *input, job *j, int overwri
                             "--activation and --metabolic are 0; expected a price above 0");
     return AMBULO_E_ARGUMENT;
   }
-  ambulo_status status = ambulo__cli_load_muscles(ambulo__cli_value(input, "muscles"),
-                                                  j->body.model, j->diagnostics, &j->muscles);
+  ambulo_status status = load_muscles(input, j);
   if (!status)
     status = ambulo_muscle_analysis_create(j->muscles, j->motion, &options, NULL, j->diagnostics,
                                            &j->analysis);
@@ -117,7 +130,7 @@ static int run(const ambulo__cli_input *input) {
 }
 
 static const ambulo__cli_option options[] = {
-    {"muscles", 0, "FILE", "muscles (default: the shipped leg_muscles.yaml)"},
+    {"muscles", 0, "FILE", "muscles (default: those of the problem, else leg_muscles.yaml)"},
     {"output", 'o', "FILE", "write the table there: CSV, or STO by the name's ending"},
     {"force", 0, NULL, "overwrite a file that ambulo did not write"},
     {"json", 0, NULL, "print the summary as JSON"},

@@ -70,8 +70,7 @@ static void sort_path(ambulo_muscles *m, int muscle) {
     }
 }
 
-/* slope of the length by its coordinate `index` at q = 0 */
-static double slope_at_zero(const ambulo_muscle *m, int index) {
+double ambulo__muscle_slope_at_zero(const ambulo_muscle *m, int index) {
   double slope = 0.0;
   for (int t = 0; t < m->term_count; t++) {
     int alone = m->exponents[t][index] == 1;
@@ -124,7 +123,7 @@ static ambulo_status add_elastic(const ambulo_muscles *m, ambulo__muscle_limb *l
   if (limb->elastic >= 0 && limb->elastic != slot)
     return refuse(m, to, muscle, "has tendons that stretch with two coordinates; expected one");
   limb->elastic = slot;
-  limb->elastic_torque -= own->force * slope_at_zero(own, index);
+  limb->elastic_torque -= own->force * ambulo__muscle_slope_at_zero(own, index);
   return AMBULO_OK;
 }
 

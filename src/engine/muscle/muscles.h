@@ -74,6 +74,8 @@ int ambulo__muscles_span(const ambulo_muscles *muscles, int coordinate);
 ambulo_status ambulo__muscles_check(const ambulo_model *model,
                                     const ambulo_muscles_definition *definition,
                                     const ambulo__place *places, ambulo_diagnostics *diagnostics);
+/* Slope of the length by the muscle's coordinate `index` at q = 0. */
+double ambulo__muscle_slope_at_zero(const ambulo_muscle *muscle, int index);
 /* Limbs and strands of what is copied: muscle_limbs.c. E_MODEL, E_MEMORY. */
 ambulo_status ambulo__muscles_split(ambulo_muscles *muscles, const ambulo__place *places,
                                     ambulo_diagnostics *diagnostics);

@@ -15,6 +15,9 @@ const char *ambulo_problem_name(const ambulo_problem *p) {
 const ambulo_model *ambulo_problem_model(const ambulo_problem *p) {
   return p->model;
 }
+const ambulo_muscles *ambulo_problem_muscles(const ambulo_problem *p) {
+  return p->definition.muscles;
+}
 double ambulo_problem_duration(const ambulo_problem *p) {
   return p->definition.duration;
 }

@@ -290,6 +290,7 @@ static ambulo_status read_document(ambulo__muscle_reader *r, const ambulo__yaml 
 }
 
 ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *path,
+                                         const ambulo__yaml_node *strength,
                                          const ambulo_model *model,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics,
@@ -307,6 +308,8 @@ ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *pat
   if (!status) status = read_document(&r, document, &d);
   if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__yaml_finish(document);
+  if (!status) ambulo__muscle_strength(&r, strength);
+  if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__muscles_build(model, &d, r.places, &own, diagnostics, muscles);
   ambulo__yaml_free(document);
   ambulo__arena_free(&r.arena);
@@ -319,6 +322,6 @@ ambulo_status ambulo_muscles_load(const char *path, const ambulo_model *model,
   if (!path || !model || !muscles) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status =
-      ambulo__muscles_load_input(NULL, path, model, allocator, diagnostics, muscles);
+      ambulo__muscles_load_input(NULL, path, NULL, model, allocator, diagnostics, muscles);
   return ambulo__conclude(diagnostics, errors, status, path);
 }

@@ -109,20 +109,6 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   (void)ambulo__yaml_error(node, status, NULL, "the model '%s' could not be loaded", path);
 }
 
-static void read_muscles(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
-  const ambulo__yaml_node *node = ambulo__yaml_get(root, "muscles");
-  const char *name = node ? ambulo__yaml_file_name(node) : "";
-  const char *path = name[0] ? ambulo__reader_path(reader, node, name) : NULL;
-  if (!path || !reader->model) return;
-  ambulo_status status =
-      ambulo__muscles_load_input(&reader->inputs, path, reader->model, &reader->allocator,
-                                 reader->diagnostics, &reader->muscles);
-  reader->definition.muscles = reader->muscles;
-  if (!status) return;
-  reader->failure = status;
-  (void)ambulo__yaml_error(node, status, NULL, "the muscles '%s' could not be loaded", path);
-}
-
 /* the body that the numbers of the file are for; what becomes of them for the subject is
  * ambulo__definition_resize's */
 static void read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
@@ -170,7 +156,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (reader->model) {
     ambulo__read_ground(reader, root);
     ambulo__read_bodies(reader, root);
-    read_muscles(reader, root); /* on the body as it is by now */
+    ambulo__read_problem_muscles(reader, ambulo__yaml_get(root, "muscles")); /* on the body as it is by now */
     ambulo__read_schedule(reader, root);
     ambulo__read_tubes(reader, root);
     ambulo__read_trajectory(reader, root);

@@ -126,6 +126,8 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
 void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `devices`: springs, dampers and actuators that the body wears. */
 void ambulo__read_devices(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
+/* `muscles`: a file of them, and how strong they are; on the body as it is by now. */
+void ambulo__read_problem_muscles(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 /* `constraints.tubes`; after the time and the schedule. */
 void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 

@@ -9,6 +9,7 @@
  *     one word for all, `pressure: on`,    an empty mapping
  *     `collision: automatic`
  *     one number for all, `scale: 2`       {default: 2}
+ *     a file alone, `muscles: legs.yaml`   {file: legs.yaml}
  *
  * A key that no reader asks for is refused by it, with the nearest name, as one in a file is. */
 #include "formats/yaml_tree.h"
@@ -171,18 +172,27 @@ static ambulo_status lengthen(const walk *w, ambulo__yaml_node *row, int index) 
   return status;
 }
 
-/* the mapping that one word or number for all stands for; *node stays where there is none */
+/* the key of the mapping that a scalar stands for; NULL: of none */
+static const char *key_of_all(const ambulo__yaml_node *scalar) {
+  double number;
+  if (!scalar->key) return NULL;
+  if (strcmp(scalar->key->text, "muscles") == 0) return "file";
+  return strcmp(scalar->key->text, "scale") == 0 &&
+                 ambulo__parse_double(scalar->text, strlen(scalar->text), &number)
+             ? "default"
+             : NULL;
+}
+
+/* the mapping that one word, number or file for all stands for; *node stays where there is none */
 static ambulo_status write_out(const walk *w, ambulo__yaml_node **node) {
   ambulo__yaml_node *scalar = *node;
   if (!w->makes || scalar->kind != AMBULO__YAML_SCALAR || !scalar->parent) return AMBULO_OK;
   if (strcmp(scalar->text, "on") == 0 || strcmp(scalar->text, "automatic") == 0)
     return put_text(w, scalar->parent, scalar, NULL, "{}", node);
-  double number;
-  if (!scalar->key || strcmp(scalar->key->text, "scale") != 0 ||
-      !ambulo__parse_double(scalar->text, strlen(scalar->text), &number))
-    return AMBULO_OK;
+  const char *key = key_of_all(scalar);
+  if (!key) return AMBULO_OK;
   ambulo_status status = put_text(w, scalar->parent, scalar, NULL, "{}", node);
-  return status ? status : put(w->document, w->file, *node, NULL, "default", scalar);
+  return status ? status : put(w->document, w->file, *node, NULL, key, scalar);
 }
 
 /* ------------------------------------------------------------------------ the walk */
