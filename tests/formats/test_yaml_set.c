@@ -66,6 +66,20 @@ static void one_scale_becomes_many(void **state) {
   yaml_shut(&c);
 }
 
+/* the name of a file of muscles becomes the mapping that has it */
+static void one_file_becomes_a_mapping(void **state) {
+  (void)state;
+  yaml_case c = yaml_open("muscles: a b.yaml\nmodel: c.yaml\n");
+  assert_int_equal(ambulo__yaml_set(c.document, "muscles.strength.knee", "4"), AMBULO_OK);
+  const ambulo__yaml_node *muscles = at(c.root, "muscles");
+  assert_int_equal(ambulo__yaml_pairs(muscles), 2);
+  assert_string_equal(ambulo__yaml_text(at(muscles, "file")), "a b.yaml");
+  assert_close(ambulo__yaml_number(at(at(muscles, "strength"), "knee"), 0.0), 4.0, 0.0);
+  expect_messages(&c, 0);
+  assert_int_not_equal(ambulo__yaml_set(c.document, "model.strength", "4"), AMBULO_OK);
+  yaml_shut(&c);
+}
+
 /* what is not there is made below a key that is; rows of numbers are lengthened, to eight */
 static void what_is_missing_is_made(void **state) {
   (void)state;
@@ -251,9 +265,9 @@ static void out_of_memory_anywhere(void **state) {
 /* each path in turn, with what it makes on its way */
 static void out_of_memory_on_the_way(void **state) {
   (void)state;
-  static const char text[] = "a: {scale: 2, row: [1], on: automatic}\n";
-  static const char *const paths[] = {"a.scale.knee", "a.row[5]", "a.new.deep.key", "a.on.margin",
-                                      "a.none[2].key"};
+  static const char text[] = "a: {scale: 2, row: [1], on: automatic, muscles: m}\n";
+  static const char *const paths[] = {"a.scale.knee", "a.row[5]",      "a.new.deep.key",
+                                      "a.on.margin",  "a.none[2].key", "a.muscles.strength.knee"};
   for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
     for (long k = 0;; k++) {
       fail_alloc memory = fail_alloc_at(-1);
@@ -277,6 +291,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_replaced_and_added),
                                      cmocka_unit_test(words_give_way_to_what_they_stand_for),
                                      cmocka_unit_test(one_scale_becomes_many),
+                                     cmocka_unit_test(one_file_becomes_a_mapping),
                                      cmocka_unit_test(what_is_missing_is_made),
                                      cmocka_unit_test(null_leaves_out),
                                      cmocka_unit_test(faults_name_the_setting),

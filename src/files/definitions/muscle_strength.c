@@ -2,8 +2,8 @@
  *
  * A key names a muscle ("soleus_r"), a group on both sides ("plantarflexors"), or a group on one
  * ("plantarflexors_r"). Its factor multiplies F_max of each of them; several multiply one another.
- * Tendons keep their stiffness: an elastic one stretches by l_s strain s(tau / T), T = sum F_max r(0)
- * of all that stretch with a coordinate, so strain is multiplied by what T is multiplied by.
+ * Tendons keep their stiffness: an elastic one stretches by l_s strain s(tau / T), T = sum F_max
+ * r(0) of all that stretch with a coordinate, so strain is multiplied by what T is multiplied by.
  */
 #include <string.h>
 
@@ -27,8 +27,7 @@ static double stretching(const ambulo__muscle_reader *r, int all, int coordinate
   for (int i = 0; i < all; i++) {
     const ambulo_muscle *m = &r->muscles[i];
     for (int k = 0; k < m->coordinate_count && m->elastic == coordinate; k++)
-      if (m->coordinates[k] == coordinate)
-        torque -= m->force * ambulo__muscle_slope_at_zero(m, k);
+      if (m->coordinates[k] == coordinate) torque -= m->force * ambulo__muscle_slope_at_zero(m, k);
   }
   return torque;
 }
@@ -58,10 +57,10 @@ static void apply(ambulo__muscle_reader *r, const ambulo__yaml_node *strength, i
     }
   if (found) return;
   const char *nearest = ambulo__nearest(key, names, (size_t)(NAMES * all));
-  (void)ambulo__yaml_error(
-      value, AMBULO_E_SCHEMA,
-      nearest ? ambulo__arena_print(&r->arena, "did you mean '%s'?", nearest) : NULL,
-      "no muscle and no group of the muscles is named '%s'", key);
+  (void)ambulo__yaml_error(value, AMBULO_E_SCHEMA,
+                           nearest ? ambulo__arena_print(&r->arena, "did you mean '%s'?", nearest)
+                                   : NULL,
+                           "no muscle and no group of the muscles is named '%s'", key);
 }
 
 void ambulo__muscle_strength(ambulo__muscle_reader *r, const ambulo__yaml_node *strength) {

@@ -156,7 +156,8 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (reader->model) {
     ambulo__read_ground(reader, root);
     ambulo__read_bodies(reader, root);
-    ambulo__read_problem_muscles(reader, ambulo__yaml_get(root, "muscles")); /* on the body as it is by now */
+    ambulo__read_problem_muscles(
+        reader, ambulo__yaml_get(root, "muscles")); /* on the body as it is by now */
     ambulo__read_schedule(reader, root);
     ambulo__read_tubes(reader, root);
     ambulo__read_trajectory(reader, root);

@@ -13,8 +13,8 @@ void ambulo__read_problem_muscles(ambulo__problem_reader *reader, const ambulo__
   const char *path = name[0] ? ambulo__reader_path(reader, file, name) : NULL;
   if (!path || !reader->model) return;
   ambulo_status status =
-      ambulo__muscles_load_input(&reader->inputs, path, strength, reader->model,
-                                 &reader->allocator, reader->diagnostics, &reader->muscles);
+      ambulo__muscles_load_input(&reader->inputs, path, strength, reader->model, &reader->allocator,
+                                 reader->diagnostics, &reader->muscles);
   reader->definition.muscles = reader->muscles;
   if (!status) return;
   reader->failure = status;
