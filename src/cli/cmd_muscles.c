@@ -75,12 +75,15 @@ static double contact_at(const ambulo_muscle_values *v, int row, int joint) {
 }
 
 static void print_joints(const ambulo_muscle_values *v) {
-  if (v->joints > 0) printf("%-16s %14s %8s\n", "joint", "contact, BW", "at, s");
+  if (v->joints > 0)
+    printf("%-16s %14s %8s %8s %8s %8s\n", "joint", "contact, BW", "at, s", "x, N", "y, N", "z, N");
   for (int j = 0; j < v->joints; j++) {
     int at = 0;
     for (int k = 1; k < v->rows; k++)
       if (contact_at(v, k, j) > contact_at(v, at, j)) at = k;
-    printf("%-16s %14.2f %8.3f\n", v->joint[j], contact_at(v, at, j), v->times[at]);
+    const double *c = v->contact + 3 * ((size_t)at * (size_t)v->joints + (size_t)j);
+    printf("%-16s %14.2f %8.3f %8.0f %8.0f %8.0f\n", v->joint[j], contact_at(v, at, j),
+           v->times[at], c[0], c[1], c[2]);
   }
 }
 

@@ -90,17 +90,30 @@ static int is_below(const ambulo_model *model, int link, int cut) {
   return link == cut;
 }
 
-/* (M.7): what the masses below need less what the ground gives, along the axes of the cut */
+/* what hands below the cut exert on what they hold */
+static void add_hands(const ambulo_model *model, const ambulo__cut *cut,
+                      const ambulo__hand_load *hands, int row, double sum[3]) {
+  for (int i = 0; hands && i < 2 * hands->loads; i++) {
+    int point = hands->hold[i / 2].hand[i % 2];
+    if (point < 0 || !is_below(model, model->points[point].link, cut->link)) continue;
+    add(sum, 1.0, hands->force + 3 * (2 * hands->loads * row + i));
+  }
+}
+
+/* (M.7): what the masses below and hands need less what the ground gives, along the axes of the cut
+ */
 static void cut_force(const ambulo__pose *pose, const ambulo__cut *cut, const double *forces,
-                      const double *grf, double out[3]) {
+                      const ambulo__cut_motion *motion, int row, double out[3]) {
   const ambulo_model *model = pose->model;
   const double *frame = pose->frames + 12 * cut->axes;
+  const double *grf = motion->grf ? motion->grf + 3 * row * model->foot_count : NULL;
   double sum[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < model->link_count; i++)
     if (is_below(model, i, cut->link)) add(sum, 1.0, forces + 3 * i);
   for (int f = 0; grf && f < model->foot_count; f++)
     if (is_below(model, model->points[model->feet[f].heel_center].link, cut->link))
       add(sum, -1.0, grf + 3 * f);
+  add_hands(model, cut, motion->hands, row, sum);
   for (int c = 0; c < 3; c++)
     out[c] = frame[c] * sum[0] + frame[4 + c] * sum[1] + frame[8 + c] * sum[2];
 }
@@ -142,13 +155,11 @@ ambulo_status ambulo__joint_contact(const ambulo_muscles *muscles, const ambulo_
       all && forces ? ambulo__pose_create(model, allocator, &pose) : AMBULO_E_MEMORY;
   for (int k = 0; k < motion->rows && !status; k++) {
     size_t at = (size_t)k * d;
-    const double *grf =
-        motion->grf ? motion->grf + 3 * (size_t)k * (size_t)model->foot_count : NULL;
     ambulo__pose_at(&pose, motion->q + at);
     inertial(&pose, motion->qd + at, motion->qdd + at, all, forces);
     for (int c = 0; c < count; c++) {
       double *out = contact + 3 * ((size_t)k * (size_t)count + (size_t)c);
-      cut_force(&pose, &cuts[c], forces, grf, out);
+      cut_force(&pose, &cuts[c], forces, motion, k, out);
       if (between) memcpy(between + (out - contact), out, 3 * sizeof *out);
       take_muscles(muscles, &cuts[c], motion->q + at,
                    motion->force + (size_t)k * (size_t)muscles->count, out);

@@ -3,10 +3,11 @@
  * Cut the body at a joint. What lies below moves by its masses; the ground, the muscles that cross
  * the joint and the surface of the joint itself push it:
  *
- *     C = sum_below m (a - g) - sum of the ground's forces below - sum_i f_i
+ *     C = sum_below m (a - g) - sum of the ground's forces below + sum of hands' below - sum_i f_i
  *
  * C is the contact force on what lies below, f_i the force of muscle i on it, along the axes of a
- * link above: f_i = -F_i pull_i(q) (ambulo/muscles.h). Ligaments and what devices do between points
+ * link above: f_i = -F_i pull_i(q) (ambulo/muscles.h). Hands' forces are those that they exert on
+ * what they hold (people/hand_load.h). Ligaments and what devices do between points
  * are not known of; a force between two points that lie on either side is part of C.
  *
  * Accelerations of centres of mass, from the root to the ends, with the joint's axis z through the
@@ -19,6 +20,7 @@
 #define AMBULO_PEOPLE_JOINT_CONTACT_H
 
 #include "muscle/muscles.h"
+#include "people/hand_load.h"
 
 /* A joint that muscles pull across. */
 typedef struct ambulo__cut {
@@ -33,9 +35,10 @@ int ambulo__cuts(const ambulo_muscles *muscles, int most, ambulo__cut *cuts);
 /* One motion, [rows][...]. */
 typedef struct ambulo__cut_motion {
   int rows;
-  const double *q, *qd, *qdd; /* [d] */
-  const double *grf;          /* [feet][3], N, world; NULL: none */
-  const double *force;        /* [muscles] N */
+  const double *q, *qd, *qdd;     /* [d] */
+  const double *grf;              /* [feet][3], N, world; NULL: none */
+  const double *force;            /* [muscles] N */
+  const ambulo__hand_load *hands; /* NULL: they hold nothing */
 } ambulo__cut_motion;
 
 /* contact [rows][cuts][3], N, in the axes of each cut's link above; `between`, which may be NULL,

@@ -91,6 +91,21 @@ static void read_forces(ambulo_muscle_analysis *a, const ambulo__motion *motion,
   if (lacking) warn_of_forces(a, lacking, diagnostics);
 }
 
+static ambulo_status read_hands(ambulo_muscle_analysis *a, const ambulo__motion *motion,
+                                ambulo_diagnostics *diagnostics) {
+  const ambulo_inverse_options options = ambulo_inverse_options_default();
+  ambulo__doubts doubts = {.diagnostics = diagnostics};
+  const ambulo__load_source source = {.model = a->muscles->model,
+                                      .file = a->motion,
+                                      .table = motion,
+                                      .options = &options,
+                                      .times = a->times,
+                                      .rows = motion->rows,
+                                      .doubts = &doubts};
+  if (!ambulo__has_hand_loads(motion)) return AMBULO_OK;
+  return ambulo__hand_load_read(&source, &a->allocator, &a->hands);
+}
+
 static ambulo_status read_motion(ambulo_muscle_analysis *a, ambulo_diagnostics *diagnostics) {
   ambulo__motion *motion = NULL;
   ambulo_status status = ambulo__motion_read(a->motion, 0, &a->allocator, diagnostics, &motion);
@@ -108,6 +123,7 @@ static ambulo_status read_motion(ambulo_muscle_analysis *a, ambulo_diagnostics *
     memcpy(a->times, motion->time, (size_t)motion->rows * sizeof *a->times);
     status = read_coordinates(a, motion, diagnostics);
     if (!status) read_forces(a, motion, diagnostics);
+    if (!status) status = read_hands(a, motion, diagnostics);
     ambulo__doubt_body(&(ambulo__doubts){.diagnostics = diagnostics}, a->motion, motion,
                        a->muscles->model);
   }
@@ -252,7 +268,7 @@ static ambulo_status analyse(ambulo_muscle_analysis *a, ambulo_diagnostics *diag
   if (!status) status = find_distance(a);
   if (status) return status;
   const ambulo__cut_motion motion = {
-      a->values.rows, a->q, a->qd, a->qdd, a->has_grf ? a->grf : NULL, a->force};
+      a->values.rows, a->q, a->qd, a->qdd, a->has_grf ? a->grf : NULL, a->force, &a->hands};
   status = ambulo__joint_contact(a->muscles, a->cuts, a->values.joints, &motion, &a->allocator,
                                  a->contact, a->between);
   if (status) return status;
@@ -384,6 +400,7 @@ void ambulo_muscle_analysis_free(ambulo_muscle_analysis *a) {
                     a->tau_rate,   a->grf,    a->force,   a->speed,  a->metabolic, a->reserve,
                     a->activation, a->length, a->contact, a->between};
   for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) ambulo__free(&memory, blocks[i]);
+  ambulo__hand_load_free(&a->hands);
   ambulo__free(&memory, a);
 }
 

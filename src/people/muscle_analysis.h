@@ -22,6 +22,7 @@ struct ambulo_muscle_analysis {
   double *times, *q, *qd, *qdd, *tau, *tau_rate, *grf;
   double *activation, *force, *length, *speed, *metabolic, *reserve, *contact, *between;
   int has_grf;
+  ambulo__hand_load hands; /* zero-filled: they hold nothing */
 };
 
 /* Integral over the rows (trapezoids) of values[k * stride]. */
