@@ -101,7 +101,7 @@ static void check_cuts(const ambulo_model *model, const ambulo__cut *cuts, int c
   }
   for (int i = 0; i < ROWS * 3 * feet; i++) grf[i] = random_between(&source, -1.0, 1.0) * weight;
   for (int i = 0; i < ROWS * MUSCLES; i++) force[i] = random_between(&source, 0.0, 1.0) * weight;
-  const ambulo__cut_motion motion = {ROWS, q, qd, qdd, feet ? grf : NULL, force};
+  const ambulo__cut_motion motion = {ROWS, q, qd, qdd, feet ? grf : NULL, force, NULL};
   ambulo__cut found[CUTS];
   assert_int_equal(ambulo__cuts(c.muscles, CUTS, found), count);
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
@@ -199,7 +199,7 @@ static void all_links_need_the_root_force(void **state) {
     }
     for (int i = 0; i < ambulo_model_link_count(model); i++)
       if (ambulo_model_link(model, i)->parent < 0) cuts[count++] = (ambulo__cut){"root", i, i};
-    const ambulo__cut_motion motion = {1, q, qd, qdd, NULL, force};
+    const ambulo__cut_motion motion = {1, q, qd, qdd, NULL, force, NULL};
     ambulo_allocator a = ambulo__allocator_or_default(NULL);
     double contact[3 * CUT_LINKS];
     assert_int_equal(ambulo__joint_contact(c.muscles, cuts, count, &motion, &a, contact, between),
@@ -252,7 +252,7 @@ static void a_standing_leg(void **state) {
   double grf[6] = {0.0}, force[MUSCLES] = {0.0};
   grf[3 * ambulo_model_find_foot(model, "right") + 1] = weight;
   cross(&c, model, NULL, 0, &source);
-  const ambulo__cut_motion motion = {1, still, still, still, grf, force};
+  const ambulo__cut_motion motion = {1, still, still, still, grf, force, NULL};
   ambulo__cut_motion unloaded = motion;
   unloaded.grf = NULL;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
@@ -266,6 +266,59 @@ static void a_standing_leg(void **state) {
   assert_true(fabs(contact[0]) < 1e-10 && fabs(contact[2]) < 1e-10);
   ambulo_muscles_free(c.muscles);
   free((double *)still);
+  ambulo_model_free(model);
+}
+
+/* the box's two hands press on the lumbar joint, one of them on the elbow, none on the hip */
+static void what_hands_hold_is_borne_above_them(void **state) {
+  (void)state;
+  enum { JOINTS = 3, LOADED = 2 };
+  static const char *const names[JOINTS][2] = {
+      {"thorax", "pelvis"}, {"forearm_l", "upper_arm_l"}, {"thigh_r", "pelvis"}};
+  ambulo_model *model = NULL;
+  crossing c;
+  random_source source = {11};
+  assert_int_equal(ambulo_model_load("models/whole_body_29.yaml", NULL, NULL, NULL, &model),
+                   AMBULO_OK);
+  static double q[LOADED * CUT_LINKS], rates[LOADED * CUT_LINKS];
+  double f[LOADED][2][3], force[LOADED * MUSCLES] = {0.0}, got[LOADED][JOINTS][3],
+                                         without[LOADED][JOINTS][3];
+  for (int i = 0; i < LOADED * CUT_LINKS; i++) {
+    q[i] = random_between(&source, -1, 1);
+    rates[i] = random_between(&source, -1, 1);
+  }
+  for (int i = 0; i < LOADED * 6; i++) (&f[0][0][0])[i] = random_between(&source, -200, 200);
+  ambulo_hold hold = ambulo_hold_default();
+  hold.hand[0] = ambulo_model_find_point(model, "hand_r");
+  hold.hand[1] = ambulo_model_find_point(model, "hand_l");
+  ambulo__hand_load hands = {.rows = LOADED, .loads = 1, .hold = &hold, .force = &f[0][0][0]};
+  ambulo__cut cuts[JOINTS];
+  for (int j = 0; j < JOINTS; j++)
+    cuts[j] = (ambulo__cut){names[j][0], ambulo_model_find_link(model, names[j][0]),
+                            ambulo_model_find_link(model, names[j][1])};
+  cross(&c, model, NULL, 0, &source);
+  ambulo__cut_motion motion = {LOADED, q, rates, rates, NULL, force, NULL};
+  ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  assert_int_equal(ambulo__joint_contact(c.muscles, cuts, JOINTS, &motion, &a, without[0][0], NULL),
+                   AMBULO_OK);
+  motion.hands = &hands;
+  assert_int_equal(ambulo__joint_contact(c.muscles, cuts, JOINTS, &motion, &a, got[0][0], NULL),
+                   AMBULO_OK);
+  ambulo__pose pose;
+  assert_int_equal(ambulo__pose_create(model, &a, &pose), AMBULO_OK);
+  for (int row = 0; row < LOADED; row++) {
+    ambulo__pose_at(&pose, q + row * ambulo_model_coordinate_count(model));
+    for (int j = 0; j < JOINTS; j++)
+      for (int axis = 0; axis < 3; axis++) {
+        double want = 0.0;
+        for (int w = 0; w < 3; w++)
+          want += pose.frames[12 * cuts[j].axes + 4 * w + axis] *
+                  (j == 2 ? 0.0 : f[row][1][w] + (j == 0 ? f[row][0][w] : 0.0));
+        assert_true(fabs(got[row][j][axis] - without[row][j][axis] - want) < 1e-9);
+      }
+  }
+  ambulo__pose_free(&pose);
+  ambulo_muscles_free(c.muscles);
   ambulo_model_free(model);
 }
 
@@ -291,7 +344,7 @@ static void cuts_are_listed_once_and_no_further(void **state) {
   /* memory */
   static double still[CUT_LINKS];
   double force[MUSCLES] = {0.0}, contact[9];
-  const ambulo__cut_motion motion = {1, still, still, still, NULL, force};
+  const ambulo__cut_motion motion = {1, still, still, still, NULL, force, NULL};
   long k = 0;
   for (int failed = 1; failed; k++) {
     fail_alloc memory = fail_alloc_at(k);
@@ -313,6 +366,7 @@ int main(void) {
       cmocka_unit_test(sliders_bear_what_joints_do_in_a_body),
       cmocka_unit_test(all_links_need_the_root_force),
       cmocka_unit_test(a_standing_leg),
+      cmocka_unit_test(what_hands_hold_is_borne_above_them),
       cmocka_unit_test(cuts_are_listed_once_and_no_further),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
