@@ -151,7 +151,8 @@ const ambulo__cli_command ambulo__cli_muscles = {
         "power. DIR is a result of solve; MOTION a table of 'ambulo inverse' or a motion.csv, "
         "with\n"
         "the columns q, qd, qdd and tau of every coordinate. Subject, slope and load are those of\n"
-        "the problem or of the options. See docs/guide-muscles.md.",
+        "the problem or of the options, muscles and their strengths those of the problem.\n"
+        "See docs/guide-muscles.md.",
     .example = "ambulo solve models/walk.yaml -o stride\n"
                "ambulo muscles models/walk.yaml stride -o muscles.csv",
     .options = options,
