@@ -92,11 +92,11 @@ static int is_below(const ambulo_model *model, int link, int cut) {
 
 /* what hands below the cut exert on what they hold */
 static void add_hands(const ambulo_model *model, const ambulo__cut *cut,
-                      const ambulo__hand_load *hands, int row, double sum[3]) {
-  for (int i = 0; hands && i < 2 * hands->loads; i++) {
-    int point = hands->hold[i / 2].hand[i % 2];
+                      const ambulo__cut_motion *motion, int row, double sum[3]) {
+  for (int i = 0; i < 2 * motion->holds; i++) {
+    int point = motion->hold[i / 2].hand[i % 2];
     if (point < 0 || !is_below(model, model->points[point].link, cut->link)) continue;
-    add(sum, 1.0, hands->force + 3 * (2 * hands->loads * row + i));
+    add(sum, 1.0, motion->hand_force + 3 * (2 * motion->holds * row + i));
   }
 }
 
@@ -113,7 +113,7 @@ static void cut_force(const ambulo__pose *pose, const ambulo__cut *cut, const do
   for (int f = 0; grf && f < model->foot_count; f++)
     if (is_below(model, model->points[model->feet[f].heel_center].link, cut->link))
       add(sum, -1.0, grf + 3 * f);
-  add_hands(model, cut, motion->hands, row, sum);
+  add_hands(model, cut, motion, row, sum);
   for (int c = 0; c < 3; c++)
     out[c] = frame[c] * sum[0] + frame[4 + c] * sum[1] + frame[8 + c] * sum[2];
 }

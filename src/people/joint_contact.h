@@ -7,7 +7,7 @@
  *
  * C is the contact force on what lies below, f_i the force of muscle i on it, along the axes of a
  * link above: f_i = -F_i pull_i(q) (ambulo/muscles.h). Hands' forces are those that they exert on
- * what they hold (people/hand_load.h). Ligaments and what devices do between points
+ * what they hold. Ligaments and what devices do between points
  * are not known of; a force between two points that lie on either side is part of C.
  *
  * Accelerations of centres of mass, from the root to the ends, with the joint's axis z through the
@@ -19,8 +19,8 @@
 #ifndef AMBULO_PEOPLE_JOINT_CONTACT_H
 #define AMBULO_PEOPLE_JOINT_CONTACT_H
 
+#include "ambulo/hold.h"
 #include "muscle/muscles.h"
-#include "people/hand_load.h"
 
 /* A joint that muscles pull across. */
 typedef struct ambulo__cut {
@@ -35,10 +35,12 @@ int ambulo__cuts(const ambulo_muscles *muscles, int most, ambulo__cut *cuts);
 /* One motion, [rows][...]. */
 typedef struct ambulo__cut_motion {
   int rows;
-  const double *q, *qd, *qdd;     /* [d] */
-  const double *grf;              /* [feet][3], N, world; NULL: none */
-  const double *force;            /* [muscles] N */
-  const ambulo__hand_load *hands; /* NULL: they hold nothing */
+  const double *q, *qd, *qdd; /* [d] */
+  const double *grf;          /* [feet][3], N, world; NULL: none */
+  const double *force;        /* [muscles] N */
+  int holds;                  /* what hands hold; 0: nothing */
+  const ambulo_hold *hold;    /* [holds] */
+  const double *hand_force;   /* [holds][2][3] that each hand exerts, N, world */
 } ambulo__cut_motion;
 
 /* contact [rows][cuts][3], N, in the axes of each cut's link above; `between`, which may be NULL,

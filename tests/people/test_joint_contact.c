@@ -101,7 +101,7 @@ static void check_cuts(const ambulo_model *model, const ambulo__cut *cuts, int c
   }
   for (int i = 0; i < ROWS * 3 * feet; i++) grf[i] = random_between(&source, -1.0, 1.0) * weight;
   for (int i = 0; i < ROWS * MUSCLES; i++) force[i] = random_between(&source, 0.0, 1.0) * weight;
-  const ambulo__cut_motion motion = {ROWS, q, qd, qdd, feet ? grf : NULL, force, NULL};
+  const ambulo__cut_motion motion = {ROWS, q, qd, qdd, feet ? grf : NULL, force, 0, NULL, NULL};
   ambulo__cut found[CUTS];
   assert_int_equal(ambulo__cuts(c.muscles, CUTS, found), count);
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
@@ -199,7 +199,7 @@ static void all_links_need_the_root_force(void **state) {
     }
     for (int i = 0; i < ambulo_model_link_count(model); i++)
       if (ambulo_model_link(model, i)->parent < 0) cuts[count++] = (ambulo__cut){"root", i, i};
-    const ambulo__cut_motion motion = {1, q, qd, qdd, NULL, force, NULL};
+    const ambulo__cut_motion motion = {1, q, qd, qdd, NULL, force, 0, NULL, NULL};
     ambulo_allocator a = ambulo__allocator_or_default(NULL);
     double contact[3 * CUT_LINKS];
     assert_int_equal(ambulo__joint_contact(c.muscles, cuts, count, &motion, &a, contact, between),
@@ -252,7 +252,7 @@ static void a_standing_leg(void **state) {
   double grf[6] = {0.0}, force[MUSCLES] = {0.0};
   grf[3 * ambulo_model_find_foot(model, "right") + 1] = weight;
   cross(&c, model, NULL, 0, &source);
-  const ambulo__cut_motion motion = {1, still, still, still, grf, force, NULL};
+  const ambulo__cut_motion motion = {1, still, still, still, grf, force, 0, NULL, NULL};
   ambulo__cut_motion unloaded = motion;
   unloaded.grf = NULL;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
@@ -291,17 +291,18 @@ static void what_hands_hold_is_borne_above_them(void **state) {
   ambulo_hold hold = ambulo_hold_default();
   hold.hand[0] = ambulo_model_find_point(model, "hand_r");
   hold.hand[1] = ambulo_model_find_point(model, "hand_l");
-  ambulo__hand_load hands = {.rows = LOADED, .loads = 1, .hold = &hold, .force = &f[0][0][0]};
   ambulo__cut cuts[JOINTS];
   for (int j = 0; j < JOINTS; j++)
     cuts[j] = (ambulo__cut){names[j][0], ambulo_model_find_link(model, names[j][0]),
                             ambulo_model_find_link(model, names[j][1])};
   cross(&c, model, NULL, 0, &source);
-  ambulo__cut_motion motion = {LOADED, q, rates, rates, NULL, force, NULL};
+  ambulo__cut_motion motion = {LOADED, q, rates, rates, NULL, force, 0, NULL, NULL};
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   assert_int_equal(ambulo__joint_contact(c.muscles, cuts, JOINTS, &motion, &a, without[0][0], NULL),
                    AMBULO_OK);
-  motion.hands = &hands;
+  motion.holds = 1;
+  motion.hold = &hold;
+  motion.hand_force = &f[0][0][0];
   assert_int_equal(ambulo__joint_contact(c.muscles, cuts, JOINTS, &motion, &a, got[0][0], NULL),
                    AMBULO_OK);
   ambulo__pose pose;
@@ -344,7 +345,7 @@ static void cuts_are_listed_once_and_no_further(void **state) {
   /* memory */
   static double still[CUT_LINKS];
   double force[MUSCLES] = {0.0}, contact[9];
-  const ambulo__cut_motion motion = {1, still, still, still, NULL, force, NULL};
+  const ambulo__cut_motion motion = {1, still, still, still, NULL, force, 0, NULL, NULL};
   long k = 0;
   for (int failed = 1; failed; k++) {
     fail_alloc memory = fail_alloc_at(k);
