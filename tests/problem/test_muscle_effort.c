@@ -161,8 +161,55 @@ static void its_forms_bend_as_the_cost_does(void **state) {
   walk_close(&w);
 }
 
+/* slope of a length at q = 0, by difference */
+static double arm_at_zero(const ambulo_muscle *m, int index) {
+  double length[2] = {0.0, 0.0};
+  for (int side = 0; side < 2; side++)
+    for (int t = 0; t < m->term_count; t++) {
+      double term = m->length[t];
+      for (int i = 0; i < m->coordinate_count; i++)
+        term *= pow(i == index ? (side ? 1e-6 : -1e-6) : 0.0, m->exponents[t][i]);
+      length[side] += term;
+    }
+  return (length[1] - length[0]) / 2e-6;
+}
+
+/* squared torques over what the muscles can give, each coordinate by itself */
+static void a_coarse_grid_has_squared_torques(void **state) {
+  (void)state;
+  static walk w;
+  walk_open(&w);
+  ambulo_problem *coarse = NULL;
+  assert_int_equal(ambulo__problem_coarser(w.problem, 18, 6, NULL, &coarse), AMBULO_OK);
+  const ambulo_term *term = &coarse->definition.terms[0];
+  const ambulo_muscles *m = w.leg.muscles;
+  assert_int_equal(coarse->definition.intervals, 18);
+  assert_int_equal(w.problem->definition.terms[0].kind, AMBULO_MUSCLE_EFFORT);
+  assert_int_equal(term->kind, AMBULO_TORQUE_SQUARED);
+  assert_true(term->weight == 3.0 && term->scale != NULL);
+  double volume = 0.0;
+  for (int i = 0; i < m->count; i++) volume += m->muscles[i].force * m->muscles[i].fiber;
+  int seen = 0;
+  for (int c = 0; c < coarse->coordinates; c++) {
+    double leverage = 0.0;
+    for (int i = 0; i < m->count; i++)
+      for (int k = 0; k < m->muscles[i].coordinate_count; k++) {
+        if (m->muscles[i].coordinates[k] != c) continue;
+        double arm = arm_at_zero(&m->muscles[i], k);
+        leverage += m->muscles[i].force * arm * arm / m->muscles[i].fiber;
+      }
+    double expected = leverage > 0.0 ? 1.5 / (0.5 * volume * leverage) : 0.0;
+    assert_close(term->scale[c] * term->scale[c], expected, 1e-6 * expected);
+    seen += leverage > 0.0;
+  }
+  assert_true(seen == leg_d - 1);
+  ambulo_problem_free(coarse);
+  walk_close(&w);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_coarse_grid_has_squared_torques),
       cmocka_unit_test(its_value_is_the_integral_of_the_least_cost),
       cmocka_unit_test(its_gradient_is_that_of_differences),
       cmocka_unit_test(its_forms_bend_as_the_cost_does),

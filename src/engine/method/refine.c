@@ -65,7 +65,7 @@ static void free_level(const ambulo_allocator *a, level *l) {
 
 static ambulo_status create_level(const ambulo_problem *problem, int intervals, int spline,
                                   const ambulo_allocator *a, const level *before, level *l) {
-  ambulo_status status = ambulo__problem_with_grid(problem, intervals, spline, a, &l->problem);
+  ambulo_status status = ambulo__problem_coarser(problem, intervals, spline, a, &l->problem);
   if (status) return status;
   l->x = ambulo__alloc(a, (size_t)l->problem->variables, sizeof *l->x);
   if (!l->x) return AMBULO_E_MEMORY;

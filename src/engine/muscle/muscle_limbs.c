@@ -127,6 +127,14 @@ static ambulo_status add_elastic(const ambulo_muscles *m, ambulo__muscle_limb *l
   return AMBULO_OK;
 }
 
+/* what activations that could push as well would make of torques at q = 0 */
+static void add_leverage(const ambulo_muscle *own, ambulo__muscle_limb *limb) {
+  for (int k = 0; k < own->coordinate_count; k++) {
+    double arm = slope_at_zero(own, k);
+    limb->leverage[slot_of(limb, own->coordinates[k])] += own->force * arm * arm / own->fiber;
+  }
+}
+
 static ambulo_status fill_limb(ambulo_muscles *m, const int *least, int first, const listener *to) {
   ambulo__muscle_limb *limb = &m->limbs[m->limb_count++];
   limb->elastic = -1;
@@ -139,6 +147,7 @@ static ambulo_status fill_limb(ambulo_muscles *m, const int *least, int first, c
   for (int i = first; i < m->count; i++) {
     if (least[i] != first) continue;
     limb->strands[limb->count++] = strand_of(m, limb, i);
+    add_leverage(&m->muscles[i], limb);
     ambulo_status status = add_elastic(m, limb, i, to);
     if (status) return status;
   }

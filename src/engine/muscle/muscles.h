@@ -45,6 +45,7 @@ typedef struct ambulo__muscle_limb {
   ambulo__strand *strands; /* [count] */
   int elastic;             /* slot of the coordinate whose torque stretches tendons; -1 */
   double elastic_torque;   /* sum F_max r(0) of the stretched muscles, N m; its sign too */
+  double leverage[AMBULO__LIMB_COORDINATES]; /* sum F_max r(0)^2 / l_o, N m */
 } ambulo__muscle_limb;
 
 struct ambulo_muscles {

@@ -288,6 +288,11 @@ void ambulo__start_pose(const ambulo_problem *problem, double *x);
 ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int intervals,
                                         int spline_intervals, const ambulo_allocator *allocator,
                                         ambulo_problem **out);
+/* The same for a grid whose solution only starts the next: terms of many valleys are eased
+ * (muscle_effort.h). */
+ambulo_status ambulo__problem_coarser(const ambulo_problem *problem, int intervals,
+                                      int spline_intervals, const ambulo_allocator *allocator,
+                                      ambulo_problem **out);
 /* ambulo_problem_create of a definition that is known to be good, or that moves beyond the ranges
  * of members a little; its obstacles have names that outlive it. */
 ambulo_status ambulo__problem_build(const ambulo_problem_definition *definition,

@@ -10,6 +10,7 @@
 #include "base/arithmetic.h"
 #include "contact/schedule.h"
 #include "problem/definition.h"
+#include "problem/muscle_effort.h"
 #include "problem/nlp.h"
 
 #include <math.h>
@@ -129,6 +130,25 @@ ambulo_status ambulo__problem_with_grid(const ambulo_problem *p, int intervals,
   }
   ambulo__free(&p->allocator, references);
   ambulo__free(&p->allocator, times);
+  ambulo__free(&p->allocator, terms);
+  return status;
+}
+
+ambulo_status ambulo__problem_coarser(const ambulo_problem *p, int intervals, int spline_intervals,
+                                      const ambulo_allocator *allocator, ambulo_problem **out) {
+  const ambulo_problem_definition *d = &p->definition;
+  ambulo_problem eased = *p;
+  ambulo_term *terms = ambulo__alloc(&p->allocator, (size_t)d->term_count, sizeof *terms);
+  double *scale = ambulo__alloc(&p->allocator, (size_t)p->coordinates, sizeof *scale);
+  ambulo_status status = terms && scale ? AMBULO_OK : AMBULO_E_MEMORY;
+  for (int t = 0; !status && t < d->term_count; t++) {
+    terms[t] = d->terms[t];
+    if (terms[t].kind == AMBULO_MUSCLE_EFFORT) ambulo__muscle_effort_ease(d, scale, &terms[t]);
+  }
+  eased.definition.terms = terms;
+  if (!status)
+    status = ambulo__problem_with_grid(&eased, intervals, spline_intervals, allocator, out);
+  ambulo__free(&p->allocator, scale);
   ambulo__free(&p->allocator, terms);
   return status;
 }
