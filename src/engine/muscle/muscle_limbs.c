@@ -130,7 +130,7 @@ static ambulo_status add_elastic(const ambulo_muscles *m, ambulo__muscle_limb *l
 /* what activations that could push as well would make of torques at q = 0 */
 static void add_leverage(const ambulo_muscle *own, ambulo__muscle_limb *limb) {
   for (int k = 0; k < own->coordinate_count; k++) {
-    double arm = slope_at_zero(own, k);
+    double arm = ambulo__muscle_slope_at_zero(own, k);
     limb->leverage[slot_of(limb, own->coordinates[k])] += own->force * arm * arm / own->fiber;
   }
 }
