@@ -43,7 +43,7 @@ static const variant variants[] = {
      {"time.intervals=96", "trajectory.intervals=14", "load=null", "constraints.reach=null",
       "objective[arm_posture].angles.arm_flex_r=14", "objective[arm_posture].angles.arm_flex_l=14",
       "objective[arm_posture].angles.elbow_flex_r=22",
-      "objective[arm_posture].angles.elbow_flex_l=22"}},
+      "objective[arm_posture].angles.elbow_flex_l=22", "objective[arm_posture].weight=0.05"}},
 };
 
 static void the_rest_is_as_they_say(void **state) {
