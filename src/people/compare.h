@@ -21,18 +21,23 @@ typedef enum ambulo__curve_unit {
   AMBULO__UNIT_ANGLE,  /* deg, from rad */
   AMBULO__UNIT_MOMENT, /* N m/kg, from N m */
   AMBULO__UNIT_FORCE,  /* N/kg, from N */
-  AMBULO__UNIT_POWER   /* W/kg, from W */
+  AMBULO__UNIT_POWER,  /* W/kg, from W */
+  AMBULO__UNIT_WEIGHT, /* body weights, from N */
+  AMBULO__UNIT_NONE    /* of activations */
 } ambulo__curve_unit;
 
 /* One line of the map. `result` is a column of motion.csv or a sum of such ("a+b"), with
  * {side} for l or r and {foot} for the foot's name; "grf.{foot}.up", "grf.{foot}.forward",
- * "grf.{foot}.right" are components along the body's axes, "power.NAME" is tau times qd. */
+ * "grf.{foot}.right" are components along the body's axes, "power.NAME" is tau times qd,
+ * "size.NAME" the length of NAME.x, NAME.y, NAME.z. muscles.csv has more columns, if it is there.
+ */
 typedef struct ambulo__map_entry {
   char curve[AMBULO__CURVE_NAME], reference[AMBULO__CURVE_NAME], result[192];
   double factor; /* on the left side */
   int opposite;  /* 1: the right side takes -factor */
   int tilted;    /* 1: the pelvic tilt is added */
   ambulo__curve_unit unit;
+  double lag; /* s: the result comes so much later than the reference */
 } ambulo__map_entry;
 
 typedef struct ambulo__map {
@@ -45,14 +50,14 @@ typedef struct ambulo__map {
 ambulo_status ambulo__map_default(ambulo__reference_layout layout,
                                   const ambulo_allocator *allocator, ambulo__map *map);
 /* From a CSV with the columns curve, reference, result, unit and, if wanted, factor,
- * right_factor, tilted. Errors as of ambulo__sheet_read, and E_SCHEMA. */
+ * right_factor, tilted, lag. Errors as of ambulo__sheet_read, and E_SCHEMA. */
 ambulo_status ambulo__map_read(const char *path, const ambulo_allocator *allocator,
                                ambulo_diagnostics *diagnostics, ambulo__map *map);
 void ambulo__map_free(ambulo__map *map); /* accepts a zero-filled one */
 /* The line that goes by the curve's own name, else the first of that curve; NULL: none. */
 const ambulo__map_entry *ambulo__map_find(const ambulo__map *map, const char *curve);
 
-/* "deg", "N m/kg", "N/kg", "W/kg". */
+/* "deg", "N m/kg", "N/kg", "W/kg", "BW", "1". */
 const char *ambulo__curve_unit_name(ambulo__curve_unit unit);
 
 /* a person's own motion: angles and forces over time, and the strides
@@ -122,6 +127,7 @@ typedef struct ambulo__cycle {
   ambulo_diagnostics *diagnostics;
   char *motion_path, *summary_path;
   ambulo__sheet sheet;         /* motion.csv; line 0 is its header */
+  ambulo__sheet muscles;       /* muscles.csv, of as many times; no lines: there is none */
   int rows;                    /* times */
   double *time;                /* [rows], s, rising */
   double *scratch;             /* [4][rows] */

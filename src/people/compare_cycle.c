@@ -136,6 +136,24 @@ static int is_file(const char *path) {
   return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
+/* of another motion, it is left alone */
+static ambulo_status read_muscles(ambulo__cycle *c, const char *directory) {
+  char *path = join(&c->allocator, directory, "muscles.csv");
+  ambulo_status status = path ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (path && is_file(path)) {
+    status = ambulo__sheet_read(path, &c->allocator, c->diagnostics, &c->muscles);
+    if (!status && c->muscles.line_count != c->sheet.line_count) {
+      ambulo__warning(c->diagnostics, (ambulo__place){.file = path}, NULL,
+                      "%d times, motion.csv has %d; muscles are left out",
+                      c->muscles.line_count - 1, c->rows);
+      ambulo__sheet_free(&c->muscles);
+      memset(&c->muscles, 0, sizeof c->muscles);
+    }
+  }
+  ambulo__free(&c->allocator, path);
+  return status;
+}
+
 /* a folder without a motion */
 static ambulo_status refuse_other_folder(const ambulo__cycle *c, const char *directory) {
   struct stat info;
@@ -257,6 +275,7 @@ ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_opt
   if (!status) status = refuse_other_folder(&c, directory);
   if (!status) status = ambulo__sheet_read(c.motion_path, &c.allocator, diagnostics, &c.sheet);
   if (!status) status = read_times(&c);
+  if (!status) status = read_muscles(&c, directory);
   if (!status) status = read_summary(&c, have);
   if (!status) status = find_strikes(&c, options, have);
   if (!status && options->mass > 0.0) c.mass = options->mass;
@@ -272,6 +291,7 @@ void ambulo__cycle_close(ambulo__cycle *c) {
   if (c->subject) ambulo__subject_free(c->subject);
   ambulo__free(&c->allocator, c->subject);
   ambulo__sheet_free(&c->sheet);
+  ambulo__sheet_free(&c->muscles);
   ambulo__free(&c->allocator, c->motion_path);
   ambulo__free(&c->allocator, c->summary_path);
   ambulo__free(&c->allocator, c->time);
@@ -353,11 +373,13 @@ ambulo_status ambulo__cycle_spread(ambulo__cycle *c, const ambulo__map_entry *en
                                    double *values, double *squares, int *strides) {
   double *y = c->scratch + c->rows, *slope = y + c->rows;
   int found = 0, is_angle = entry->unit == AMBULO__UNIT_ANGLE;
+  int by_mass = !is_angle && entry->unit != AMBULO__UNIT_NONE;
   *strides = 0;
   ambulo_status status = ambulo__cycle_samples(c, entry->result, side, y, &found);
-  if (status || !found || (!is_angle && !(c->mass > 0.0))) return status;
+  if (status || !found || (by_mass && !(c->mass > 0.0))) return status;
   if (!c->subject) warn_if_open(c, y, entry->curve);
-  double factor = entry->factor * (is_angle ? 57.295779513082321 : 1.0 / c->mass);
+  double factor = entry->factor * (is_angle ? 57.295779513082321 : by_mass ? 1.0 / c->mass : 1.0);
+  if (entry->unit == AMBULO__UNIT_WEIGHT) factor /= c->gravity;
   if (entry->opposite && side == AMBULO__CYCLE_RIGHT) factor = -factor;
   int n = *strides = count_strides(c, side, is_angle);
   if (n == 0) return AMBULO_OK;
@@ -365,12 +387,13 @@ ambulo_status ambulo__cycle_spread(ambulo__cycle *c, const ambulo__map_entry *en
   if (squares) memset(squares, 0, (size_t)count * sizeof *squares);
   fill_slopes(c, y, slope);
   if (!c->subject)
-    add_stride(c, y, slope, factor, c->strike[side], c->length[side], percents, count, n, values,
-               squares);
+    add_stride(c, y, slope, factor, c->strike[side] + entry->lag, c->length[side], percents, count,
+               n, values, squares);
   for (int i = 0; c->subject && i + 1 < c->subject->count[side]; i++) {
     const double *t = c->subject->strikes[side] + i;
     if (is_angle || c->subject->loaded[side][i])
-      add_stride(c, y, slope, factor, t[0], t[1] - t[0], percents, count, n, values, squares);
+      add_stride(c, y, slope, factor, t[0] + entry->lag, t[1] - t[0], percents, count, n, values,
+                 squares);
   }
   return AMBULO_OK;
 }

@@ -1,5 +1,4 @@
-/* people/compare_map.c - the column map: built in for three published layouts, or from a file; and
- * the expressions in it over columns of motion.csv.
+/* people/compare_map.c - the column map: built in for three published layouts, or from a file.
  *
  * Signs. Results: hip flexion, hip adduction, knee flexion and dorsiflexion are positive, and so
  * are the torques that cause them. References: extension and plantarflexion moments are
@@ -12,75 +11,80 @@
 
 #include <string.h>
 
-/* curve, reference, result, factor, opposite, tilted, unit */
+/* curve, reference, result, factor, opposite, tilted, unit, lag */
 static const ambulo__map_entry band[] = {
-    {"pelvis_anterior_tilt", "pelvic_tilt", "q.pelvis_tilt", -1, 0, 1, AMBULO__UNIT_ANGLE},
-    {"pelvis_up_obliquity", "pelvic_obliquity", "q.pelvis_list", 1, 1, 0, AMBULO__UNIT_ANGLE},
+    {"pelvis_anterior_tilt", "pelvic_tilt", "q.pelvis_tilt", -1, 0, 1, AMBULO__UNIT_ANGLE, 0},
+    {"pelvis_up_obliquity", "pelvic_obliquity", "q.pelvis_list", 1, 1, 0, AMBULO__UNIT_ANGLE, 0},
     {"pelvis_internal_rotation", "pelvic_rotation", "q.pelvis_rotation", -1, 1, 0,
-     AMBULO__UNIT_ANGLE},
-    {"hip_flexion", "hip_flexion", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE},
-    {"hip_adduction", "hip_adduction", "q.hip_adduction_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
-    {"hip_internal_rotation", "hip_rotation", "q.hip_rotation_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
-    {"knee_flexion", "knee_flexion", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
+    {"hip_flexion", "hip_flexion", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE, 0},
+    {"hip_adduction", "hip_adduction", "q.hip_adduction_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0},
+    {"hip_internal_rotation", "hip_rotation", "q.hip_rotation_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE,
+     0},
+    {"knee_flexion", "knee_flexion", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0},
     {"ankle_dorsiflexion", "ankle_dorsiflexion", "q.ankle_angle_{side}", 1, 0, 0,
-     AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
 };
 
 static const ambulo__map_entry quantity[] = {
     {"pelvis_anterior_tilt", "angle_deg/pelvis_anterior_tilt", "q.pelvis_tilt", -1, 0, 1,
-     AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
     {"pelvis_up_obliquity", "angle_deg/pelvis_up_obliquity", "q.pelvis_list", 1, 1, 0,
-     AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
     {"pelvis_internal_rotation", "angle_deg/pelvis_internal_rotation", "q.pelvis_rotation", -1, 1,
-     0, AMBULO__UNIT_ANGLE},
-    {"hip_flexion", "angle_deg/hip_flexion", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE},
+     0, AMBULO__UNIT_ANGLE, 0},
+    {"hip_flexion", "angle_deg/hip_flexion", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE,
+     0},
     {"hip_adduction", "angle_deg/hip_adduction", "q.hip_adduction_{side}", 1, 0, 0,
-     AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
     {"hip_internal_rotation", "angle_deg/hip_internal_rotation", "q.hip_rotation_{side}", 1, 0, 0,
-     AMBULO__UNIT_ANGLE},
-    {"knee_flexion", "angle_deg/knee_flexion", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
+    {"knee_flexion", "angle_deg/knee_flexion", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE,
+     0},
     {"ankle_dorsiflexion", "angle_deg/ankle_dorsiflexion", "q.ankle_angle_{side}", 1, 0, 0,
-     AMBULO__UNIT_ANGLE},
+     AMBULO__UNIT_ANGLE, 0},
     {"hip_extension_moment", "moment_nm_per_kg/hip_extension", "tau.hip_flexion_{side}", -1, 0, 0,
-     AMBULO__UNIT_MOMENT},
+     AMBULO__UNIT_MOMENT, 0},
     {"hip_abduction_moment", "moment_nm_per_kg/hip_abduction", "tau.hip_adduction_{side}", -1, 0, 0,
-     AMBULO__UNIT_MOMENT},
+     AMBULO__UNIT_MOMENT, 0},
     {"knee_extension_moment", "moment_nm_per_kg/knee_extension", "tau.knee_angle_{side}", -1, 0, 0,
-     AMBULO__UNIT_MOMENT},
+     AMBULO__UNIT_MOMENT, 0},
     {"ankle_plantarflexion_moment", "moment_nm_per_kg/ankle_plantarflexion",
-     "tau.ankle_angle_{side}", -1, 0, 0, AMBULO__UNIT_MOMENT},
+     "tau.ankle_angle_{side}", -1, 0, 0, AMBULO__UNIT_MOMENT, 0},
     {"hip_power", "power_w_per_kg/hip",
      "power.hip_flexion_{side}+power.hip_adduction_{side}+power.hip_rotation_{side}", 1, 0, 0,
-     AMBULO__UNIT_POWER},
-    {"knee_power", "power_w_per_kg/knee", "power.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_POWER},
+     AMBULO__UNIT_POWER, 0},
+    {"knee_power", "power_w_per_kg/knee", "power.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_POWER,
+     0},
     {"ankle_power", "power_w_per_kg/ankle", "power.ankle_angle_{side}+power.subtalar_angle_{side}",
-     1, 0, 0, AMBULO__UNIT_POWER},
+     1, 0, 0, AMBULO__UNIT_POWER, 0},
 };
 
 /* the hip angle of this table is that of the thigh against the trunk: no pelvic tilt */
 static const ambulo__map_entry wide[] = {
-    {"hip_flexion", "hip angle", "q.hip_flexion_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
-    {"knee_flexion", "knee angle", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
-    {"ankle_dorsiflexion", "ankle angle", "q.ankle_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
-    {"grf_forward", "horizontal GRF", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE},
-    {"grf_vertical", "vertical GRF", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE},
-    {"hip_extension_moment", "hip moment", "tau.hip_flexion_{side}", -1, 0, 0, AMBULO__UNIT_MOMENT},
-    {"knee_extension_moment", "knee moment", "tau.knee_angle_{side}", -1, 0, 0,
-     AMBULO__UNIT_MOMENT},
+    {"hip_flexion", "hip angle", "q.hip_flexion_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0},
+    {"knee_flexion", "knee angle", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0},
+    {"ankle_dorsiflexion", "ankle angle", "q.ankle_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0},
+    {"grf_forward", "horizontal GRF", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE, 0},
+    {"grf_vertical", "vertical GRF", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE, 0},
+    {"hip_extension_moment", "hip moment", "tau.hip_flexion_{side}", -1, 0, 0, AMBULO__UNIT_MOMENT,
+     0},
+    {"knee_extension_moment", "knee moment", "tau.knee_angle_{side}", -1, 0, 0, AMBULO__UNIT_MOMENT,
+     0},
     {"ankle_plantarflexion_moment", "ankle moment", "tau.ankle_angle_{side}", -1, 0, 0,
-     AMBULO__UNIT_MOMENT},
+     AMBULO__UNIT_MOMENT, 0},
 };
 
 /* curves that no published layout has; a table of cycles names its columns as the curves */
 static const ambulo__map_entry others[] = {
-    {"grf_forward", "grf_forward", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE},
-    {"grf_vertical", "grf_vertical", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE},
-    {"grf_medial", "grf_medial", "grf.{foot}.right", 1, 1, 0, AMBULO__UNIT_FORCE},
-    {"mtp_extension", "mtp_extension", "q.mtp_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
+    {"grf_forward", "grf_forward", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE, 0},
+    {"grf_vertical", "grf_vertical", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE, 0},
+    {"grf_medial", "grf_medial", "grf.{foot}.right", 1, 1, 0, AMBULO__UNIT_FORCE, 0},
+    {"mtp_extension", "mtp_extension", "q.mtp_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0},
     {"lumbar_extension_moment", "lumbar_extension_moment", "tau.lumbar_extension", 1, 0, 0,
-     AMBULO__UNIT_MOMENT},
+     AMBULO__UNIT_MOMENT, 0},
     {"lumbar_bending_moment", "lumbar_bending_moment", "tau.lumbar_bending", -1, 1, 0,
-     AMBULO__UNIT_MOMENT},
+     AMBULO__UNIT_MOMENT, 0},
 };
 enum {
   OWN_COUNT = sizeof quantity / sizeof *quantity,
@@ -104,7 +108,7 @@ static const struct {
     [AMBULO__LAYOUT_WIDE] = {wide, sizeof wide / sizeof *wide},
 };
 
-static const char *const unit_names[] = {"deg", "N m/kg", "N/kg", "W/kg"};
+static const char *const unit_names[] = {"deg", "N m/kg", "N/kg", "W/kg", "BW", "1"};
 enum { UNIT_COUNT = sizeof unit_names / sizeof *unit_names };
 
 const char *ambulo__curve_unit_name(ambulo__curve_unit unit) {
@@ -142,8 +146,8 @@ const ambulo__map_entry *ambulo__map_find(const ambulo__map *map, const char *cu
 /* ---------------------------------------------------------------- from a file */
 
 typedef struct map_columns {
-  int curve, reference, result, unit; /* required */
-  int factor, right_factor, tilted;   /* -1: not given */
+  int curve, reference, result, unit;    /* required */
+  int factor, right_factor, tilted, lag; /* -1: not given */
 } map_columns;
 
 typedef struct map_reader {
@@ -184,7 +188,7 @@ static void read_unit(map_reader *reader, int line, ambulo__map_entry *entry) {
   }
   reader->status = ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA,
                                  ambulo__sheet_place(reader->sheet, line, reader->at.unit), NULL,
-                                 "unknown unit; expected deg, N m/kg, N/kg or W/kg");
+                                 "unknown unit; expected deg, N m/kg, N/kg, W/kg, BW or 1");
 }
 
 static void read_entry(map_reader *reader, int line, ambulo__map_entry *entry) {
@@ -200,6 +204,7 @@ static void read_entry(map_reader *reader, int line, ambulo__map_entry *entry) {
   right = entry->factor;
   read_optional(reader, line, reader->at.right_factor, "right_factor", &right);
   read_optional(reader, line, reader->at.tilted, "tilted", &tilted);
+  read_optional(reader, line, reader->at.lag, "lag", &entry->lag);
   if ((right != entry->factor && right != -entry->factor) || (tilted != 0.0 && tilted != 1.0)) {
     reader->status = ambulo__error(
         reader->diagnostics, AMBULO_E_SCHEMA, ambulo__sheet_place(reader->sheet, line, 0), NULL,
@@ -218,7 +223,7 @@ static ambulo_status find_columns(map_reader *reader) {
       {"curve", &reader->at.curve, 1},   {"reference", &reader->at.reference, 1},
       {"result", &reader->at.result, 1}, {"unit", &reader->at.unit, 1},
       {"factor", &reader->at.factor, 0}, {"right_factor", &reader->at.right_factor, 0},
-      {"tilted", &reader->at.tilted, 0},
+      {"tilted", &reader->at.tilted, 0}, {"lag", &reader->at.lag, 0},
   };
   for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
     *columns[i].at = ambulo__sheet_find(reader->sheet, 0, columns[i].name);
@@ -250,137 +255,4 @@ ambulo_status ambulo__map_read(const char *path, const ambulo_allocator *allocat
     *map = m;
   }
   return reader.status;
-}
-
-/* ------------------------------------------- expressions over columns of motion.csv */
-
-enum { NAME_SIZE = 256 };
-
-static const char *const feet[] = {"left", "right"};
-
-/* copies from[0..length) and puts the side in place of {side} and {foot}; 0 if it is too long */
-static int expand(const char *from, size_t length, ambulo__cycle_side side, char name[NAME_SIZE]) {
-  size_t used = 0, i = 0;
-  while (i < length) {
-    char letter[2] = {from[i], '\0'};
-    const char *piece = letter;
-    size_t step = 1;
-    if (length - i >= 6 && memcmp(from + i, "{side}", 6) == 0) {
-      letter[0] = side == AMBULO__CYCLE_LEFT ? 'l' : 'r';
-      step = 6;
-    } else if (length - i >= 6 && memcmp(from + i, "{foot}", 6) == 0) {
-      piece = feet[side];
-      step = 6;
-    }
-    size_t size = strlen(piece);
-    if (used + size >= NAME_SIZE) return 0;
-    memcpy(name + used, piece, size);
-    used += size;
-    i += step;
-  }
-  name[used] = '\0';
-  return 1;
-}
-
-/* the same of a person's own motion */
-static void take_of_subject(const ambulo__motion *table, const char *name, double factor,
-                            int product, double *values, int *found) {
-  int column = ambulo__motion_column(table, name);
-  *found = column >= 0;
-  for (int k = 0; *found && k < table->rows; k++) {
-    double value = table->values[(size_t)k * (size_t)table->columns + (size_t)column];
-    values[k] = product ? values[k] * value : values[k] + factor * value;
-  }
-}
-
-/* values += factor * column (or *= when product); 0 in *found if there is no such column */
-static ambulo_status take_column(ambulo__cycle *c, const char *name, double factor, int product,
-                                 double *values, int *found) {
-  int column = -1;
-  if (c->subject) {
-    take_of_subject(c->subject->table, name, factor, product, values, found);
-    return AMBULO_OK;
-  }
-  ambulo_status status = ambulo__sheet_find_one(&c->sheet, 0, name, c->diagnostics, &column);
-  if (status) return status;
-  *found = column >= 0;
-  for (int k = 0; *found && k < c->rows; k++) {
-    double value;
-    status = ambulo__sheet_number(&c->sheet, k + 1, column, name, c->diagnostics, &value);
-    if (status) return status;
-    values[k] = product ? values[k] * value : values[k] + factor * value;
-  }
-  return AMBULO_OK;
-}
-
-/* grf.FOOT.up, grf.FOOT.forward, grf.FOOT.right: name ends with `direction` */
-static ambulo_status take_component(ambulo__cycle *c, char *name, const char *direction,
-                                    double *values, int *found) {
-  const double *f = c->forward, *u = c->up;
-  const double right[3] = {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2],
-                           f[0] * u[1] - f[1] * u[0]};
-  const double *axis = direction[0] == 'u' ? u : direction[0] == 'f' ? f : right;
-  char *end = name + strlen(name) - strlen(direction);
-  for (int i = 0; i < 3; i++) {
-    end[0] = "xyz"[i];
-    end[1] = '\0';
-    ambulo_status status = take_column(c, name, axis[i], 0, values, found);
-    if (status || !*found) return status;
-  }
-  return AMBULO_OK;
-}
-
-/* power.NAME = tau.NAME qd.NAME; scratch [rows] */
-static ambulo_status take_power(ambulo__cycle *c, const char *name, double *scratch, double *values,
-                                int *found) {
-  char column[NAME_SIZE + 8];
-  const char *coordinate = name + strlen("power.");
-  memset(scratch, 0, (size_t)c->rows * sizeof *scratch);
-  memcpy(column, "tau.", 5);
-  memcpy(column + 4, coordinate, strlen(coordinate) + 1);
-  ambulo_status status = take_column(c, column, 1.0, 0, scratch, found);
-  if (status || !*found) return status;
-  memcpy(column, "qd.", 4);
-  memcpy(column + 3, coordinate, strlen(coordinate) + 1);
-  status = take_column(c, column, 1.0, 1, scratch, found);
-  for (int k = 0; !status && *found && k < c->rows; k++) values[k] += scratch[k];
-  return status;
-}
-
-/* of a force along an axis of the body; NULL: another column */
-static const char *direction_of(const char *name) {
-  static const char *const directions[] = {"up", "forward", "right"};
-  const char *dot = strrchr(name, '.');
-  for (int i = 0; strncmp(name, "grf.", 4) == 0 && i < 3; i++)
-    if (strcmp(dot + 1, directions[i]) == 0) return directions[i];
-  return NULL;
-}
-
-ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
-                                    ambulo__cycle_side side, double *values, int *found) {
-  double *scratch = c->scratch + 3 * (size_t)c->rows;
-  int any = 0;
-  memset(values, 0, (size_t)c->rows * sizeof *values);
-  for (const char *at = expression; at;) {
-    const char *plus = strchr(at, '+');
-    size_t length = plus ? (size_t)(plus - at) : strlen(at);
-    char name[NAME_SIZE];
-    int has = 0;
-    ambulo_status status = AMBULO_OK;
-    if (expand(at, length, side, name)) {
-      const char *direction = direction_of(name);
-      if (direction) {
-        status = take_component(c, name, direction, values, &has);
-      } else if (strncmp(name, "power.", 6) == 0) {
-        status = take_power(c, name, scratch, values, &has);
-      } else {
-        status = take_column(c, name, 1.0, 0, values, &has);
-      }
-    }
-    if (status) return status;
-    any |= has;
-    at = plus ? plus + 1 : NULL;
-  }
-  *found = any;
-  return AMBULO_OK;
 }

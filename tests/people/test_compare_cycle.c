@@ -1,10 +1,10 @@
-/* Cycles: strikes from summary, forces, option or default; interpolation; sums and components. */
+/* Cycles: strikes from summary, forces, option or default; interpolation. */
 #include "people/compare.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"
 
 static const ambulo__map_entry hip = {"hip", "hip", "q.hip_flexion_{side}", 1,
-                                      0,     0,     AMBULO__UNIT_ANGLE};
+                                      0,     0,     AMBULO__UNIT_ANGLE,     0};
 
 static ambulo_status open_cycle(void **state, double strike, ambulo_diagnostics *list,
                                 ambulo__cycle *cycle) {
@@ -87,27 +87,6 @@ static void curves_are_interpolated_around_the_end(void **state) {
   ambulo__cycle_close(&c);
 }
 
-static void expressions(void **state) {
-  ambulo__cycle c;
-  double values[41];
-  int found = 0;
-  gait_motion(*state, 0.0, 1);
-  gait_summary(*state, "{\"body\": {\"up\": [0, 2, 0]}}");
-  assert_int_equal(open_cycle(state, 0.1, NULL, &c), AMBULO_OK);
-  assert_int_equal(ambulo__cycle_samples(&c, "tau.hip_flexion_l+tau.none+tau.hip_flexion_{side}",
-                                         AMBULO__CYCLE_RIGHT, values, &found),
-                   AMBULO_OK);
-  assert_int_equal(found, 1);
-  for (int k = 0; k < 41; k++) assert_close(values[k], 0.0, 1e-9);
-  assert_int_equal(ambulo__cycle_samples(&c, "grf.{foot}.up", AMBULO__CYCLE_LEFT, values, &found),
-                   AMBULO_OK);
-  assert_close(values[22], 2.0 * gait_force(0.3), 1e-6);
-  assert_int_equal(ambulo__cycle_samples(&c, "power.hip_flexion_l", 0, values, &found), AMBULO_OK);
-  assert_int_equal(found, 0);
-  assert_int_equal(ambulo__cycle_samples(&c, "zmp.x", 0, values, &found), AMBULO_E_SCHEMA);
-  ambulo__cycle_close(&c);
-}
-
 static void bad_folders(void **state) {
   ambulo__cycle c;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
@@ -142,7 +121,6 @@ int main(void) {
       cmocka_unit_test_setup_teardown(the_next_strike_ends_the_cycle, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(curves_are_interpolated_around_the_end, scratch_open,
                                       scratch_close),
-      cmocka_unit_test_setup_teardown(expressions, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(bad_folders, scratch_open, scratch_close)};
   return cmocka_run_group_tests_name("compare/compare_cycle", tests, NULL, NULL);
 }
