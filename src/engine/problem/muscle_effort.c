@@ -70,25 +70,6 @@ void ambulo__muscle_effort_free(ambulo__muscle_effort *e) {
   ambulo__free(&a, e);
 }
 
-/* ------------------------------------------------------------- a coarse grid's */
-
-void ambulo__muscle_effort_ease(const ambulo_problem_definition *d, double *scale,
-                                ambulo_term *term) {
-  const ambulo_muscles *m = d->muscles;
-  double price = term->activation + term->metabolic;
-  memset(scale, 0, (size_t)ambulo_model_coordinate_count(d->model) * sizeof *scale);
-  for (int l = 0; l < m->limb_count; l++)
-    for (int j = 0; j < m->limbs[l].coordinate_count; j++) {
-      double leverage = 0.5 * m->volume * m->limbs[l].leverage[j];
-      if (leverage > 0.0) scale[m->limbs[l].coordinates[j]] = sqrt(price / leverage);
-    }
-  ambulo_term eased = ambulo_term_default(AMBULO_TORQUE_SQUARED);
-  eased.name = term->name;
-  eased.weight = term->weight;
-  eased.scale = scale;
-  *term = eased;
-}
-
 /* ------------------------------------------------------------------- a block */
 
 static double *channel_of(const ambulo_workspace *w, double *lanes, int node, int channel) {

@@ -12,12 +12,6 @@
  * Curvature: phi is convex in tau, with second derivatives A^-1 where A is the curvature of the
  * dual. With A = C C', the rows of C^-1 are slopes g of forms whose squares add up to it; u = 0,
  * and phi'' = 2 of a square asks for g / sqrt 2.
- *
- * A coarse grid, whose solution only starts the next, has squared torques in its place: muscles
- * that could push as well as pull, at q = 0, each torque by itself. With weights w = F l_o / V a
- * torque costs at the least tau^2 / sum (r F)^2 / w = tau^2 / (V sum F r^2 / l_o). As half of the
- * muscles can pull the one way, V counts half. The cost has one valley where that of muscles has
- * many.
  */
 #ifndef AMBULO_PROBLEM_MUSCLE_EFFORT_H
 #define AMBULO_PROBLEM_MUSCLE_EFFORT_H
@@ -39,10 +33,6 @@ ambulo_status ambulo__muscle_effort_create(const struct ambulo_problem *problem,
                                            const ambulo_allocator *allocator,
                                            ambulo__muscle_effort **effort);
 void ambulo__muscle_effort_free(ambulo__muscle_effort *effort); /* accepts NULL */
-
-/* *term, of this kind, becomes squared torques; scale [coordinates] is the caller's. */
-void ambulo__muscle_effort_ease(const ambulo_problem_definition *definition, double *scale,
-                                ambulo_term *term);
 
 /* Members of the table of kinds (term.h). */
 double ambulo__muscle_value(struct ambulo_workspace *workspace, const ambulo_term *term,

@@ -289,7 +289,7 @@ ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int inter
                                         int spline_intervals, const ambulo_allocator *allocator,
                                         ambulo_problem **out);
 /* The same for a grid whose solution only starts the next: terms of many valleys are eased
- * (muscle_effort.h). */
+ * (variants.c). */
 ambulo_status ambulo__problem_coarser(const ambulo_problem *problem, int intervals,
                                       int spline_intervals, const ambulo_allocator *allocator,
                                       ambulo_problem **out);

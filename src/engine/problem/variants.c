@@ -9,8 +9,8 @@
 #include "ambulo/extend.h"
 #include "base/arithmetic.h"
 #include "contact/schedule.h"
+#include "muscle/muscles.h"
 #include "problem/definition.h"
-#include "problem/muscle_effort.h"
 #include "problem/nlp.h"
 
 #include <math.h>
@@ -134,6 +134,28 @@ ambulo_status ambulo__problem_with_grid(const ambulo_problem *p, int intervals,
   return status;
 }
 
+/* Muscles give way to squared torques: muscles that could push as well as pull, at q = 0, each
+ * torque by itself. With weights w = F l_o / V a torque costs at the least
+ *
+ *     tau^2 / sum (r F)^2 / w = tau^2 / (V sum F r^2 / l_o)
+ *
+ * As half of the muscles can pull the one way, V counts half. The cost has one valley where that of
+ * muscles has many. */
+static void ease(const ambulo_problem_definition *d, double *scale, ambulo_term *term) {
+  const ambulo_muscles *m = d->muscles;
+  double price = term->activation + term->metabolic;
+  for (int l = 0; l < m->limb_count; l++)
+    for (int j = 0; j < m->limbs[l].coordinate_count; j++) {
+      double leverage = 0.5 * m->volume * m->limbs[l].leverage[j];
+      if (leverage > 0.0) scale[m->limbs[l].coordinates[j]] = sqrt(price / leverage);
+    }
+  ambulo_term eased = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  eased.name = term->name;
+  eased.weight = term->weight;
+  eased.scale = scale;
+  *term = eased;
+}
+
 ambulo_status ambulo__problem_coarser(const ambulo_problem *p, int intervals, int spline_intervals,
                                       const ambulo_allocator *allocator, ambulo_problem **out) {
   const ambulo_problem_definition *d = &p->definition;
@@ -143,7 +165,7 @@ ambulo_status ambulo__problem_coarser(const ambulo_problem *p, int intervals, in
   ambulo_status status = terms && scale ? AMBULO_OK : AMBULO_E_MEMORY;
   for (int t = 0; !status && t < d->term_count; t++) {
     terms[t] = d->terms[t];
-    if (terms[t].kind == AMBULO_MUSCLE_EFFORT) ambulo__muscle_effort_ease(d, scale, &terms[t]);
+    if (terms[t].kind == AMBULO_MUSCLE_EFFORT) ease(d, scale, &terms[t]);
   }
   eased.definition.terms = terms;
   if (!status)
