@@ -3,7 +3,8 @@
  * For the yardstick at several N, the median and least time of: values (objective and rows),
  * gradient of a weighted sum (reverse sweep), and all Jacobians, each at a fresh point so that
  * nothing is cached; the time of all three per node, and the power of N it grows with. Then, at N =
- * 72, the same with families of rows switched off. */
+ * 72, the same with families of rows switched off. Last, the walk by muscles with and without its
+ * term. */
 #include "mechanics/plan.h"
 #include "bench_csv.h"
 #include "ambulo/tools/load.h"
@@ -21,19 +22,13 @@ typedef struct subject {
   double times[parts + 1][rounds * repeats]; /* s; the last: all parts */
 } subject;
 
-static subject *subject_open(int intervals, const char *const *extra, int extra_count) {
-  char time[64], spline[64];
-  (void)snprintf(time, sizeof time, "time.intervals=%d", intervals);
-  (void)snprintf(spline, sizeof spline, "trajectory.intervals=%d", intervals);
-  const char *overrides[8] = {time, spline};
-  for (int i = 0; i < extra_count; i++) overrides[2 + i] = extra[i];
+static subject *subject_of(const char *name, const char *const *overrides, int count) {
+  char path[256];
+  (void)snprintf(path, sizeof path, "%s/models/%s.yaml", AMBULO_SOURCE_DIR, name);
   subject *s = calloc(1, sizeof *s);
-  if (!s ||
-      ambulo_problem_load(AMBULO_SOURCE_DIR "/models/yardstick_12.yaml", overrides, 2 + extra_count,
-                          NULL, NULL, &s->problem) ||
+  if (!s || ambulo_problem_load(path, overrides, count, NULL, NULL, &s->problem) ||
       ambulo_workspace_create(s->problem, NULL, &s->workspace)) {
-    (void)fprintf(stderr, "bench_evaluate: the yardstick with N = %d could not be built\n",
-                  intervals);
+    (void)fprintf(stderr, "bench_evaluate: '%s' could not be built\n", name);
     exit(1);
   }
   s->n = ambulo_problem_variable_count(s->problem);
@@ -45,6 +40,15 @@ static subject *subject_open(int intervals, const char *const *extra, int extra_
   if (!s->x || !s->gradient || !s->weights) exit(1);
   for (int r = 0; r < s->rows; r++) s->weights[r] = cos(r);
   return s;
+}
+
+static subject *subject_open(int intervals, const char *const *extra, int extra_count) {
+  char time[64], spline[64];
+  (void)snprintf(time, sizeof time, "time.intervals=%d", intervals);
+  (void)snprintf(spline, sizeof spline, "trajectory.intervals=%d", intervals);
+  const char *overrides[8] = {time, spline};
+  for (int i = 0; i < extra_count; i++) overrides[2 + i] = extra[i];
+  return subject_of("yardstick_12", overrides, 2 + extra_count);
 }
 
 static void subject_free(subject *s) {
@@ -143,11 +147,38 @@ static void report_rows(bench_table *table) {
   }
 }
 
+/* a walk by squared torques, by muscles, and what muscles cost more for a leg and a node */
+static void report_muscles(bench_table *table) {
+  enum { legs = 2, count = 3 };
+  static const char *const objective[count] = {"objective=[{term: torque_squared}]",
+                                               "objective=[{term: muscle_effort}]",
+                                               "objective=[{term: muscle_effort, metabolic: 0.5}]"};
+  static const char *const name[count] = {"squared torques", "muscles",
+                                          "muscles and metabolic power"};
+  subject *subjects[count];
+  for (int i = 0; i < count; i++) subjects[i] = subject_of("walk_muscles", &objective[i], 1);
+  double least[count];
+  char quantity[bench_key];
+  for (int round = 0; round < rounds; round++)
+    for (int i = 0; i < count; i++) (void)measure(subjects[i]);
+  for (int i = 0; i < count; i++) {
+    subject *s = subjects[i];
+    least[i] = bench_least(s->times[0], s->count) + bench_least(s->times[1], s->count);
+    (void)snprintf(quantity, sizeof quantity, "values and gradient with %s at least", name[i]);
+    bench_put(table, quantity, "us", 1e6 * least[i]);
+    if (i == 0) continue;
+    (void)snprintf(quantity, sizeof quantity, "%s, a leg and node", name[i]);
+    bench_put(table, quantity, "us", 1e6 * (least[i] - least[0]) / (legs * s->nodes));
+  }
+  for (int i = 0; i < count; i++) subject_free(subjects[i]);
+}
+
 int main(void) {
   bench_table table;
   bench_open(&table, ambulo__instruction_set(), "evaluate");
   report_nodes(&table);
   report_rows(&table);
+  report_muscles(&table);
   bench_close(&table);
   return 0;
 }
