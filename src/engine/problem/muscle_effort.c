@@ -26,11 +26,15 @@ static void choose_nodes(const ambulo_problem *p, ambulo__muscle_effort *e) {
   }
 }
 
+static ambulo_sharing prices_of(const ambulo_term *term) {
+  return (ambulo_sharing){sizeof(ambulo_sharing), term->activation, term->metabolic, term->reserve,
+                          1};
+}
+
 static ambulo_status allocate(const ambulo_problem *p, const ambulo_term *term,
                               ambulo__muscle_effort *e) {
   const ambulo_muscles *muscles = p->definition.muscles;
-  const ambulo_sharing prices = {sizeof prices, term->activation, term->metabolic, term->reserve,
-                                 1};
+  const ambulo_sharing prices = prices_of(term);
   size_t nodes = (size_t)p->nodes;
   for (int l = 0; l < muscles->limb_count; l++) e->forms += muscles->limbs[l].coordinate_count;
   e->nodes = p->nodes;
@@ -140,12 +144,13 @@ double ambulo__muscle_value(ambulo_workspace *workspace, const ambulo_term *term
                             double *slopes) {
   const ambulo_problem *p = workspace->problem;
   ambulo__muscle_effort *e = workspace->muscles;
+  const ambulo_muscles *muscles = e->share->muscles;
   double sum = 0.0;
-  (void)term; /* there is one */
+  e->share->sharing = prices_of(term); /* a variant's may be others */
   for (int first = 0; first < p->nodes; first += AMBULO__LANES) {
     int form = 0;
-    for (int l = 0; l < p->definition.muscles->limb_count; l++) {
-      const ambulo__muscle_limb *limb = &p->definition.muscles->limbs[l];
+    for (int l = 0; l < muscles->limb_count; l++) {
+      const ambulo__muscle_limb *limb = &muscles->limbs[l];
       ambulo__share_block b;
       double *inputs[AMBULO__SHARE_INPUTS];
       ambulo__share_begin(e->share, l, &b, inputs);
