@@ -38,7 +38,9 @@ static int allocate(ambulo_muscles *m, const amounts *n, int count) {
   m->numbers = ambulo__alloc(a, n->numbers, sizeof *m->numbers);
   m->strands = ambulo__alloc(a, (size_t)count, sizeof *m->strands);
   m->limbs = ambulo__alloc(a, (size_t)count, sizeof *m->limbs);
-  return m->text && m->muscles && m->pulls && m->exponents && m->numbers && m->strands && m->limbs;
+  m->fixed = ambulo__alloc(a, (size_t)count, sizeof *m->fixed);
+  return m->text && m->muscles && m->pulls && m->exponents && m->numbers && m->strands &&
+         m->limbs && m->fixed;
 }
 
 /* where the next of each goes */
@@ -158,7 +160,7 @@ void ambulo_muscles_free(ambulo_muscles *muscles) {
   if (!muscles) return;
   ambulo_allocator a = muscles->allocator;
   void *blocks[] = {muscles->text,    muscles->muscles, muscles->pulls, muscles->exponents,
-                    muscles->numbers, muscles->strands, muscles->limbs};
+                    muscles->numbers, muscles->strands, muscles->limbs, muscles->fixed};
   for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) ambulo__free(&a, blocks[i]);
   ambulo__free(&a, muscles);
 }

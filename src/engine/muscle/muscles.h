@@ -62,7 +62,11 @@ struct ambulo_muscles {
   int limb_count;
   ambulo__strand *strands; /* [count], limb by limb */
   double volume;           /* of all, m^3 in units of F_max l_o / stress */
+  unsigned char *fixed;    /* [count] AMBULO__FIXED_FORCE | ... */
 };
+
+/* Numbers of a muscle that a problem file gives, which do not grow with the body. */
+enum { AMBULO__FIXED_FORCE = 1, AMBULO__FIXED_FIBER = 2, AMBULO__FIXED_TENDON = 4 };
 
 /* ambulo_muscles_create; places[i] (may be NULL) is where muscle i stands in a file. */
 ambulo_status ambulo__muscles_build(const ambulo_model *model,

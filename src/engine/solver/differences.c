@@ -182,8 +182,7 @@ static ambulo_status look(const stationary *s, const ambulo__parameter *n, doubl
     if (term->strength_is_limits)
       ambulo__strength_of_limits(s->p->variant.coordinates, s->p->problem->coordinates, term->price,
                                  ambulo__variant_own(term->strength));
-    out->value[0] =
-        term->weight * ambulo__term_value(s->workspace, term, 0.0, s->workspace->term_slope);
+    status = ambulo__variant_term_value(&s->p->variant, s->workspace, term, out->value);
     out->kind = isfinite(out->value[0]) ? SIDE_THERE : SIDE_MISSING;
     out->travel = 0.0;
   }

@@ -48,12 +48,14 @@ ambulo_status ambulo__variant_init(const ambulo_problem *p, const ambulo_allocat
   if (!v->coordinates) return AMBULO_E_MEMORY;
   memcpy(v->coordinates, p->model->coordinates, bytes);
   ambulo_status status = ambulo__definition_copy(&p->definition, &v->allocator, &v->definition);
+  if (!status) status = ambulo__variant_take_muscles(v);
   return status ? status : fill_rests(v);
 }
 
 static void clear_variant(ambulo__variant *v) {
   if (!v->origin) return;
   ambulo__free(&v->allocator, v->coordinates);
+  ambulo__free(&v->allocator, v->muscles);
   ambulo__definition_free(&v->allocator, &v->definition);
   *v = (ambulo__variant){.origin = NULL};
 }
@@ -187,6 +189,7 @@ ambulo_status ambulo__variant_problem(const ambulo__variant *v, ambulo_diagnosti
   if (!checked && !limits_moved(v) && !body_moved(v))
     return make(v, &d, diagnostics, checked, problem);
   ambulo_model *model = NULL;
+  ambulo_muscles *muscles = NULL;
   ambulo_problem *made = NULL;
   ambulo_status status =
       ambulo__model_copy(m, m->points, m->point_count, &v->allocator, NULL, &model);
@@ -194,12 +197,16 @@ ambulo_status ambulo__variant_problem(const ambulo__variant *v, ambulo_diagnosti
   change(v, model);
   status = ambulo__definition_copy(&v->definition, &v->allocator, &d);
   d.model = model;
+  if (!status) status = ambulo__variant_muscles(v, model, diagnostics, &muscles);
+  d.muscles = muscles;
   if (!status) status = make(v, &d, diagnostics, checked, &made);
   ambulo__definition_free(&v->allocator, &d);
   if (status) {
+    ambulo_muscles_free(muscles);
     ambulo_model_free(model);
     return status;
   }
+  made->owned_muscles = muscles;
   made->owned_model = model;
   *problem = made;
   return AMBULO_OK;

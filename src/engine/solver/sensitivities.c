@@ -270,6 +270,7 @@ ambulo_status ambulo__parameters_init(const ambulo_problem *problem,
   if (status) return status;
   ambulo__parameters_of_walk(p);
   ambulo__parameters_of_body(p);
+  ambulo__parameters_of_muscles(p);
   ambulo__parameters_of_devices(p);
   ambulo__parameters_of_holds(p);
   ambulo__parameters_of_terms(p);

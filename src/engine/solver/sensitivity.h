@@ -2,7 +2,7 @@
  * derivative of the best objective with it.
  *
  * parameters.c has the list of numbers and the variant in which they are moved; numbers_walk.c,
- * numbers_body.c and numbers_task.c fill it; differences.c finds the derivatives; sensitivities.c
+ * numbers_body.c, numbers_muscles.c and numbers_task.c fill it; differences.c finds the derivatives; sensitivities.c
  * puts them in words.
  */
 #ifndef AMBULO_SOLVER_SENSITIVITY_H
@@ -35,6 +35,7 @@ typedef struct ambulo__variant {
   const ambulo_problem *origin;
   ambulo_problem_definition definition; /* a copy, whose arrays may be written to */
   ambulo_coordinate *coordinates;       /* [d] likewise: range, speed, torque count */
+  ambulo_muscle *muscles; /* [count] likewise: force, fiber, tendon; NULL: there are none */
   ambulo__body_numbers body;
   ambulo__gait_rule rule;
 } ambulo__variant;
@@ -58,6 +59,18 @@ static inline void *ambulo__variant_own(const void *array) {
 ambulo_status ambulo__variant_problem(const ambulo__variant *variant,
                                       ambulo_diagnostics *diagnostics, int checked,
                                       ambulo_problem **problem);
+
+/* numbers_muscles.c: the copy of their numbers. E_MEMORY. */
+ambulo_status ambulo__variant_take_muscles(ambulo__variant *variant);
+/* The muscles as they stand now, of a body like `model`, which must outlive them; NULL: there are
+ * none. Errors: as ambulo_muscles_create. */
+ambulo_status ambulo__variant_muscles(const ambulo__variant *variant, const ambulo_model *model,
+                                      ambulo_diagnostics *diagnostics, ambulo_muscles **muscles);
+/* A term of the variant, times its weight, at the channels of a workspace of the origin; NaN: there
+ * are no such muscles. E_MEMORY. */
+ambulo_status ambulo__variant_term_value(const ambulo__variant *variant,
+                                         ambulo_workspace *workspace, const ambulo_term *term,
+                                         double *value);
 
 /* ----------------------------------------------------------------- numbers */
 
@@ -150,11 +163,12 @@ int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign
  * and the file does not state its unit. */
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
 
-/* The pieces: gait, contacts, duration, travel; body, its limits, devices, what hands hold; terms,
- * constraints, ground, obstacles. */
+/* The pieces: gait, contacts, duration, travel; body, its limits, muscles, devices, what hands hold;
+ * terms, constraints, ground, obstacles. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
 void ambulo__parameters_of_body(ambulo__parameters *parameters);
 void ambulo__parameters_of_limits(ambulo__parameters *parameters);
+void ambulo__parameters_of_muscles(ambulo__parameters *parameters);
 void ambulo__parameters_of_devices(ambulo__parameters *parameters);
 void ambulo__parameters_of_holds(ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);

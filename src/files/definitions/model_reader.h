@@ -60,10 +60,10 @@ ambulo_status ambulo__model_load_input(ambulo__inputs *inputs, const char *path,
                                        const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo_model **model);
 
-/* ambulo_muscles_load, and takes the file in. `strength`, of another document or NULL, maps names
- * of groups and muscles to factors of their force. */
+/* ambulo_muscles_load, and takes the file in. `section`, `muscles` of a problem file or NULL, has
+ * factors of force by groups and muscles, `strength`, and numbers by muscles. */
 ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *path,
-                                         const ambulo__yaml_node *strength,
+                                         const ambulo__yaml_node *section,
                                          const ambulo_model *model,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics, ambulo_muscles **muscles);

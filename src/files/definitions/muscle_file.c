@@ -278,6 +278,7 @@ static ambulo_status read_document(ambulo__muscle_reader *r, const ambulo__yaml 
   size_t all = (size_t)(sides * r->count);
   r->muscles = ambulo__arena_take(&r->arena, all, sizeof *r->muscles);
   r->places = ambulo__arena_take(&r->arena, all, sizeof *r->places);
+  r->fixed = ambulo__arena_take(&r->arena, all, sizeof *r->fixed);
   for (int i = 0; r->muscles && r->places && i < r->count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     read_muscle(r, item, &r->muscles[i]);
@@ -290,7 +291,7 @@ static ambulo_status read_document(ambulo__muscle_reader *r, const ambulo__yaml 
 }
 
 ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *path,
-                                         const ambulo__yaml_node *strength,
+                                         const ambulo__yaml_node *section,
                                          const ambulo_model *model,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics,
@@ -308,9 +309,11 @@ ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *pat
   if (!status) status = read_document(&r, document, &d);
   if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__yaml_finish(document);
-  if (!status) ambulo__muscle_strength(&r, strength);
+  if (!status) ambulo__muscle_strength(&r, ambulo__yaml_get(section, "strength"));
+  if (!status) ambulo__muscle_numbers(&r, section);
   if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__muscles_build(model, &d, r.places, &own, diagnostics, muscles);
+  if (!status) memcpy((*muscles)->fixed, r.fixed, (size_t)d.muscle_count * sizeof *r.fixed);
   ambulo__yaml_free(document);
   ambulo__arena_free(&r.arena);
   return status;

@@ -29,6 +29,7 @@ typedef struct ambulo__muscle_reader {
   int range_count;
   ambulo_muscle *muscles; /* [2 count]: the file's, then their mirror images */
   ambulo__place *places;
+  unsigned char *fixed; /* [2 count] AMBULO__FIXED_FORCE | ... */
   int count;
 } ambulo__muscle_reader;
 
@@ -38,5 +39,7 @@ const char *ambulo__muscle_other_side(ambulo__muscle_reader *reader, const char 
 void ambulo__muscle_mirror(ambulo__muscle_reader *reader, const ambulo__yaml_node *item, int index);
 /* Multiplies forces by the factors of `strength` (NULL: none), and says at it what is wrong. */
 void ambulo__muscle_strength(ambulo__muscle_reader *reader, const ambulo__yaml_node *strength);
+/* Numbers by muscle of `muscles` in a problem file (NULL: none), in place of what they are. */
+void ambulo__muscle_numbers(ambulo__muscle_reader *reader, const ambulo__yaml_node *section);
 
 #endif
