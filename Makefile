@@ -328,7 +328,7 @@ SCRIPTS := $(patsubst %,tests/cli/run.sh:%,$(notdir $(sort $(wildcard tests/cli/
 LONG_SCRIPTS := tests/docs/run.sh:--all $(sort $(wildcard tests/*/long*.sh))
 LONG_TESTS := $(filter %/test_sensitivity_reference %/test_mirror %/test_auglag %/test_starts %/walks/test_run %/test_bounces \
   %/test_obstacles %/test_held_tasks %/test_ground_work %/walks/test_walk %/test_whole_body \
-  %/test_sensitivity_errors %/test_node_types %/test_numbers_body %/test_numbers_walk %/test_numbers_task \
+  %/test_sensitivity_errors %/test_node_types %/test_numbers_body %/test_numbers_walk %/test_numbers_task %/test_numbers_muscles \
   %/test_event_times %/test_differences %/test_step_rows %/test_sensitivity_surface %/test_front_faults,$(TESTS))
 
 tests: $(TESTS)

@@ -2,8 +2,8 @@
  * muscles that a variant has.
  *
  * They are listed where the objective has the term muscle_effort, which alone depends on them: at
- * the same q, qd, tau and tau', another least cost of the sharing. With mirrored ends a muscle moves
- * together with its mirror image; without, each side has numbers of its own.
+ * the same q, qd, tau and tau', another least cost of the sharing. With mirrored ends a muscle
+ * moves together with its mirror image; without, each side has numbers of its own.
  *
  * Muscles grow with the body as those of a file do (definitions/muscle_file.c): with the masses m,
  * loads apart, forces are multiplied by (m / m)^(2/3), and lengths, paths among them, as lengths of
@@ -24,15 +24,15 @@ static const struct {
   const char *key, *label;
   ambulo__quantity quantity;
   size_t at;
-  double high; /* what a file may say */
+  double low, high; /* what a file may say */
   int fixed;
 } numbers[] = {
-    {"force", "isometric force", AMBULO__RATIO, offsetof(ambulo_muscle, force), 1e6,
+    {"force", "isometric force", AMBULO__RATIO, offsetof(ambulo_muscle, force), 1e-6, 1e6,
      AMBULO__FIXED_FORCE},
-    {"fiber", "optimal fibre length", AMBULO__SHORT_LENGTH, offsetof(ambulo_muscle, fiber), 2.0,
-     AMBULO__FIXED_FIBER},
+    {"fiber", "optimal fibre length", AMBULO__SHORT_LENGTH, offsetof(ambulo_muscle, fiber), 1e-6,
+     2.0, AMBULO__FIXED_FIBER},
     {"tendon", "slack length of the tendon", AMBULO__SHORT_LENGTH, offsetof(ambulo_muscle, tendon),
-     2.0, AMBULO__FIXED_TENDON},
+     0.0, 2.0, AMBULO__FIXED_TENDON},
 };
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
 
@@ -101,8 +101,7 @@ ambulo_status ambulo__variant_muscles(const ambulo__variant *v, const ambulo_mod
   d.source = own->source;
   d.muscles = list;
   d.muscle_count = own->count;
-  if (!status)
-    status = ambulo__muscles_build(model, &d, NULL, &v->allocator, diagnostics, muscles);
+  if (!status) status = ambulo__muscles_build(model, &d, NULL, &v->allocator, diagnostics, muscles);
   if (!status) memcpy((*muscles)->fixed, fixed, count * sizeof *fixed);
   ambulo__free(&v->allocator, list);
   ambulo__free(&v->allocator, lengths);
@@ -138,7 +137,7 @@ static void add_muscle(ambulo__parameters *p, int i, int image) {
                    other != m ? AMBULO__BOTH_OF_A_PAIR : "");
     ambulo__parameter_add(p, numbers[k].quantity, number_of(m, k), label, "muscles.%s.%s", m->name,
                           numbers[k].key);
-    ambulo__parameter_within(p, 0.0, numbers[k].high);
+    ambulo__parameter_within(p, numbers[k].low, numbers[k].high);
     if (other != m)
       ambulo__parameter_with(p, 1.0, number_of(other, k), "muscles.%s.%s", other->name,
                              numbers[k].key);

@@ -1,8 +1,8 @@
 /* definitions/muscle_numbers.c - numbers of single muscles that a problem file gives: soleus_r:
  * {force: 4000}, in `muscles`.
  *
- * They are those of the person, N and m, in place of what the muscles file, the size of the body and
- * factors of strength have come to. All else stays as it is, strains of tendons too.
+ * They are those of the person, N and m, in place of what the muscles file, the size of the body
+ * and factors of strength have come to. All else stays as it is, strains of tendons too.
  */
 #include "definitions/muscle_reader.h"
 
