@@ -86,9 +86,13 @@ static void refusals(void **state) {
   expect_refusal(HEAD "muscles: {file: leg_muscles.yaml, strength: 0.5}\n", AMBULO_E_SCHEMA,
                  "p.yaml:6:45: error[E_SCHEMA]: ");
   expect_refusal(HEAD "muscles: {file: leg_muscles.yaml, soleus_r: {force: 0}}\n", AMBULO_E_SCHEMA,
-                 "p.yaml:6:54: error[E_SCHEMA]: ");
+                 "p.yaml:6:53: error[E_SCHEMA]: ");
   expect_refusal(HEAD "muscles: {file: leg_muscles.yaml, soleus_r: {fibre: 0.1}}\n",
                  AMBULO_E_SCHEMA, "unknown key 'fibre' in muscles.soleus_r");
+  expect_refusal(HEAD "muscles: {file: leg_muscles.yaml, soleos_l: {fiber: 0.1}}\n",
+                 AMBULO_E_SCHEMA,
+                 "error[E_SCHEMA]: unknown key 'soleos_l' in muscles\n"
+                 "  hint: did you mean 'soleus_l'?");
   expect_refusal(HEAD "muscles: {file: leg_muscles.yaml, soleus_r: 3}\n", AMBULO_E_SCHEMA,
                  "p.yaml:6:45: error[E_SCHEMA]: ");
   expect_refusal(HEAD "muscles: [leg_muscles.yaml]\n", AMBULO_E_SCHEMA, "p.yaml:6:10: ");

@@ -7,7 +7,6 @@ void ambulo__read_problem_muscles(ambulo__problem_reader *reader, const ambulo__
   if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     section = node;
     file = ambulo__yaml_require(node, "file");
-    (void)ambulo__yaml_get(node, "strength");
   }
   const char *name = file ? ambulo__yaml_file_name(file) : "";
   const char *path = name[0] ? ambulo__reader_path(reader, file, name) : NULL;
@@ -16,7 +15,6 @@ void ambulo__read_problem_muscles(ambulo__problem_reader *reader, const ambulo__
       ambulo__muscles_load_input(&reader->inputs, path, section, reader->model, &reader->allocator,
                                  reader->diagnostics, &reader->muscles);
   reader->definition.muscles = reader->muscles;
-  if (section && !status) ambulo__yaml_close(section);
   if (!status) return;
   reader->failure = status;
   (void)ambulo__yaml_error(file, status, NULL, "the muscles '%s' could not be loaded", path);
