@@ -26,7 +26,8 @@
  *     times of contacts, and so do knots on events; each phase keeps its number of intervals.
  *   - Contacts that begin or end at one time go on doing so; contacts of a foot that follow each
  *     other on one foothold stay on one.
- *   - With mirrored ends left and right stay alike.
+ *   - With mirrored ends left and right stay alike, muscles too.
+ *   - Muscles grow with the body: forces with its mass to the power 2/3, lengths with its stature.
  *
  * What is not listed:
  *

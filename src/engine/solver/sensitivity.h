@@ -1,9 +1,9 @@
 /* solver/sensitivity.h - the numbers of a problem: where each stands, what it is called, and the
  * derivative of the best objective with it.
  *
- * parameters.c has the list of numbers and the variant in which they are moved; numbers_walk.c,
- * numbers_body.c, numbers_muscles.c and numbers_task.c fill it; differences.c finds the derivatives; sensitivities.c
- * puts them in words.
+ * parameters.c has the list of numbers and the variant in which they are moved, variant_muscles.c
+ * its muscles; numbers_walk.c, numbers_body.c, numbers_muscles.c and numbers_task.c fill it;
+ * differences.c finds the derivatives; sensitivities.c puts them in words.
  */
 #ifndef AMBULO_SOLVER_SENSITIVITY_H
 #define AMBULO_SOLVER_SENSITIVITY_H
@@ -60,7 +60,7 @@ ambulo_status ambulo__variant_problem(const ambulo__variant *variant,
                                       ambulo_diagnostics *diagnostics, int checked,
                                       ambulo_problem **problem);
 
-/* numbers_muscles.c: the copy of their numbers. E_MEMORY. */
+/* variant_muscles.c: the copy of their numbers. E_MEMORY. */
 ambulo_status ambulo__variant_take_muscles(ambulo__variant *variant);
 /* The muscles as they stand now, of a body like `model`, which must outlive them; NULL: there are
  * none. Errors: as ambulo_muscles_create. */
@@ -163,8 +163,8 @@ int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign
  * and the file does not state its unit. */
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
 
-/* The pieces: gait, contacts, duration, travel; body, its limits, muscles, devices, what hands hold;
- * terms, constraints, ground, obstacles. */
+/* The pieces: gait, contacts, duration, travel; body, its limits, muscles, devices, what hands
+ * hold; terms, constraints, ground, obstacles. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
 void ambulo__parameters_of_body(ambulo__parameters *parameters);
 void ambulo__parameters_of_limits(ambulo__parameters *parameters);

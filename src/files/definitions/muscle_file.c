@@ -309,7 +309,7 @@ ambulo_status ambulo__muscles_load_input(ambulo__inputs *inputs, const char *pat
   if (!status) status = read_document(&r, document, &d);
   if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__yaml_finish(document);
-  if (!status) ambulo__muscle_strength(&r, ambulo__yaml_get(section, "strength"));
+  if (!status) ambulo__muscle_strength(&r, section);
   if (!status) ambulo__muscle_numbers(&r, section);
   if (!status && r.arena.failed) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__muscles_build(model, &d, r.places, &own, diagnostics, muscles);

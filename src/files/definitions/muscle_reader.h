@@ -37,9 +37,9 @@ typedef struct ambulo__muscle_reader {
 const char *ambulo__muscle_other_side(ambulo__muscle_reader *reader, const char *name);
 /* The mirror image of muscle `index`, which stands at `item`, behind those of the file. */
 void ambulo__muscle_mirror(ambulo__muscle_reader *reader, const ambulo__yaml_node *item, int index);
-/* Multiplies forces by the factors of `strength` (NULL: none), and says at it what is wrong. */
-void ambulo__muscle_strength(ambulo__muscle_reader *reader, const ambulo__yaml_node *strength);
-/* Numbers by muscle of `muscles` in a problem file (NULL: none), in place of what they are. */
+/* Of `muscles` in a problem file (NULL: none): multiplies forces by its `strength`; takes its
+ * numbers by muscle in place of what they are. Each says there what is wrong. */
+void ambulo__muscle_strength(ambulo__muscle_reader *reader, const ambulo__yaml_node *section);
 void ambulo__muscle_numbers(ambulo__muscle_reader *reader, const ambulo__yaml_node *section);
 
 #endif

@@ -63,7 +63,8 @@ static void apply(ambulo__muscle_reader *r, const ambulo__yaml_node *strength, i
                            "no muscle and no group of the muscles is named '%s'", key);
 }
 
-void ambulo__muscle_strength(ambulo__muscle_reader *r, const ambulo__yaml_node *strength) {
+void ambulo__muscle_strength(ambulo__muscle_reader *r, const ambulo__yaml_node *section) {
+  const ambulo__yaml_node *strength = ambulo__yaml_get(section, "strength");
   int pairs = ambulo__yaml_pairs(strength), all = r->count * (r->suffix[0] ? 2 : 1);
   if (pairs == 0) return;
   const char **names = ambulo__arena_take(&r->arena, (size_t)(NAMES * all), sizeof *names);
