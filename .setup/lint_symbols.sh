@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # lint_symbols.sh LIBRARY.so LIBRARY.a: what is exported is what the public headers declare, each
-# function in the version of its headers (.setup/symbols.sh); the stable ones are at most 141. No
+# function in the version of its headers (.setup/symbols.sh); the stable ones are at most 142. No
 # name leaves the archive without the prefix, nothing in it is writable (constants with addresses in
 # them, which the loader fills in, are not: section .data.rel.ro).
 set -u
-most=141
+most=142
 faults=0
 report() {
   [ -z "$2" ] && return

@@ -26,8 +26,9 @@ from pathlib import Path
 INTERNAL = {
     "ambulo_allocator", "ambulo_node_state", "ambulo_node_gradient", "ambulo_motion",
     "ambulo_jacobians", "ambulo_output_weights", "ambulo_motion_gradient", "ambulo_outputs",
-    "ambulo_inverse_outputs", "ambulo_problem_text", "ambulo_muscle", "ambulo_muscle_pull",
-    "ambulo_muscles_definition", "ambulo_sharing_states", "ambulo_sharing_outputs", "ambulo_muscle_values",
+    "ambulo_point_motion", "ambulo_inverse_outputs", "ambulo_problem_text", "ambulo_muscle",
+    "ambulo_muscle_pull", "ambulo_muscles_definition", "ambulo_sharing_states",
+    "ambulo_sharing_outputs", "ambulo_muscle_values",
 }
 
 # Arrays of doubles that come without a count: their shapes. d: coordinates; devices, nodes, knots:

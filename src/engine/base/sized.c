@@ -90,6 +90,7 @@ static const ambulo__usual rows[] = {
     ROW(ambulo_output_weights, 1, {0}),
     ROW(ambulo_motion_gradient, 1, {0}),
     ROW(ambulo_jacobians, 1, {0}),
+    ROW(ambulo_point_motion, 1, {0}),
     ROW(ambulo_motion, 1, {0}),
 
     /* phases of people at a comfortable speed, as docs/guide-gait.md has them */

@@ -1,5 +1,26 @@
-/* mechanics/pose.c - see pose.h. */
+/* mechanics/pose.c - see pose.h; velocity of a point, ambulo/mechanics.h.
+ *
+ * Velocity. A link hands a point x, given in its frame, to its parent as
+ *
+ *     x' = R(q_i) x + t(q_i),    v' = R(q_i) v + qd_i x'_i,    v = 0 in the link that holds it
+ *
+ * with x'_i = dx'/dq_i. The joint turns about, or slides along, z of the parent's frame, which
+ * passes through its origin. Thus with a = z of a revolute joint, a = 0 of another,
+ *
+ *     x'_i = a x x' (revolute), z (prismatic), 0 (fixed)
+ *
+ * On the way from the link to the world each step adds the slopes by its own q_i, and carries those
+ * by the coordinates k beyond it:
+ *
+ *     x'_k = R x_k,    v'_k = R v_k + qd_i a x x'_k,    v'_i = a x v'
+ *
+ * The last because dR/dq_i = a x R and da/dq_i = 0, and v' holds qd_i x'_i already. Velocity is
+ * linear in qd: its slopes by qd are those of x by q.
+ */
 #include "mechanics/pose.h"
+
+#include "ambulo/mechanics.h"
+#include "base/sized.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,4 +92,85 @@ ambulo_status ambulo__pose_create(const ambulo_model *model, const ambulo_alloca
 
 void ambulo__pose_free(ambulo__pose *pose) {
   ambulo__free(&pose->allocator, pose->frames);
+}
+
+/* ------------------------------------------------------------ velocity of a point */
+
+/* Inputs up to this cannot make results overflow. */
+static const double most_input = 1e100;
+
+static int is_usable(const double *x, int count) {
+  for (int i = 0; i < count; i++)
+    if (!(fabs(x[i]) <= most_input)) return 0; /* also NaN */
+  return 1;
+}
+
+/* x becomes R x, R of the 3 x 4 rows t; entries are `stride` apart */
+static void rotate(const double *t, double *x, int stride) {
+  double a = x[0], b = x[stride], c = x[2 * stride];
+  for (int r = 0; r < 3; r++) x[r * stride] = t[4 * r] * a + t[4 * r + 1] * b + t[4 * r + 2] * c;
+}
+
+/* Slopes by the coordinates beyond link i, up to the point's own link, carried to i's parent. turn:
+ * qd_i of a revolute joint. */
+static void carry_slopes(const ambulo_model *model, int link, int i, const double *t, double turn,
+                         const ambulo_point_motion *to) {
+  const int d = model->coordinate_count;
+  for (int k = link; k != i; k = model->links[k].parent) {
+    const int c = model->links[k].coordinate;
+    if (c < 0) continue;
+    double *x = to->position_q + c;
+    rotate(t, x, d);
+    if (!to->velocity_q) continue;
+    double *v = to->velocity_q + c;
+    rotate(t, v, d);
+    v[0] -= turn * x[d];
+    v[d] += turn * x[0];
+  }
+}
+
+/* x and v from link i's frame to that of its parent, and the slopes by its own coordinate */
+static void pass_joint(const ambulo_link *link, int d, const double *t, double rate, double x[3],
+                       double v[3], const ambulo_point_motion *to) {
+  const int turns = link->type == AMBULO_REVOLUTE, c = link->coordinate;
+  rotate(t, x, 1);
+  rotate(t, v, 1);
+  for (int r = 0; r < 3; r++) x[r] += t[4 * r + 3];
+  if (c < 0) return;
+  const double by_q[3] = {turns ? -x[1] : 0.0, turns ? x[0] : 0.0, turns ? 0.0 : 1.0};
+  for (int r = 0; r < 3; r++) v[r] += rate * by_q[r];
+  for (int r = 0; r < 3 && to->position_q; r++) to->position_q[r * d + c] = by_q[r];
+  if (!to->velocity_q) return;
+  to->velocity_q[c] = turns ? -v[1] : 0.0;
+  to->velocity_q[c + d] = turns ? v[0] : 0.0;
+  to->velocity_q[c + 2 * d] = 0.0;
+}
+
+ambulo_status ambulo_model_point_motion(const ambulo_model *model, int link, const double local[3],
+                                        const double *q, const double *qd,
+                                        const ambulo_point_motion *motion) {
+  ambulo_point_motion to;
+  if (!model || !local || !motion || link < -1 || link >= model->link_count ||
+      !AMBULO__OWN(ambulo_point_motion, &to, motion) || (to.velocity_q && !to.position_q))
+    return AMBULO_E_ARGUMENT;
+  const int d = model->coordinate_count;
+  if (d > 0 && (!q || !qd)) return AMBULO_E_ARGUMENT;
+  if (!is_usable(local, 3) || !is_usable(q, d) || !is_usable(qd, d)) return AMBULO_E_NUMERIC;
+  const size_t slopes = 3 * (size_t)d;
+  if (to.position_q && d > 0) memset(to.position_q, 0, slopes * sizeof(double));
+  if (to.velocity_q && d > 0) memset(to.velocity_q, 0, slopes * sizeof(double));
+  double x[3] = {local[0], local[1], local[2]}, v[3] = {0.0, 0.0, 0.0};
+  for (int i = link; i >= 0; i = model->links[i].parent) {
+    const ambulo_link *at = &model->links[i];
+    const int moves = at->coordinate >= 0;
+    const double rate = moves ? qd[at->coordinate] : 0.0;
+    double t[12];
+    link_transform(at, moves ? q[at->coordinate] : 0.0, t);
+    pass_joint(at, d, t, rate, x, v, &to);
+    if (to.position_q)
+      carry_slopes(model, link, i, t, at->type == AMBULO_REVOLUTE ? rate : 0.0, &to);
+  }
+  if (to.position) memcpy(to.position, x, sizeof x);
+  if (to.velocity) memcpy(to.velocity, v, sizeof v);
+  return AMBULO_OK;
 }
