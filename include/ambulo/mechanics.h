@@ -82,13 +82,15 @@ ambulo_mechanics_jacobians(ambulo_mechanics *mechanics, int nodes, const double 
 typedef struct ambulo_point_motion {
   size_t size;                 /* set by ambulo_point_motion_default() */
   double *position, *velocity; /* [3], m and m/s */
-  double *position_q; /* [3][d]: slopes of the position by q, which are those of the velocity by qd */
+  double
+      *position_q; /* [3][d]: slopes of the position by q, which are those of the velocity by qd */
   double *velocity_q; /* [3][d]: slopes of the velocity by q; needs position_q */
 } ambulo_point_motion;
 AMBULO_DEFAULT(ambulo_point_motion); /* NULL */
-/* Position and velocity of any point at one state q, qd [d]: `local`, m, in the frame of `link` (-1:
- * the world). It needs no memory, so that terms and rows of the caller's own (objective.h) may call
- * it from any thread. Errors: E_ARGUMENT, E_NUMERIC (an input is not finite or beyond 1e100). */
+/* Position and velocity of any point at one state q, qd [d]: `local`, m, in the frame of `link`
+ * (-1: the world). It needs no memory, so that terms and rows of the caller's own (objective.h) may
+ * call it from any thread. Errors: E_ARGUMENT, E_NUMERIC (an input is not finite or beyond 1e100).
+ */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_model_point_motion(const ambulo_model *model, int link, const double local[3],
                           const double *q, const double *qd, const ambulo_point_motion *motion);

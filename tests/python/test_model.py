@@ -117,3 +117,26 @@ class Mechanics(Case):
             gradient = mechanics.gradient(q, qd, qdd, tau_weights=weights)
             for got, jacobian in zip(gradient, jacobians[:3]):
                 self.close(got, numpy.einsum("ni,nij->nj", weights, jacobian), 1e-12)
+
+    def test_velocity_of_any_point(self):
+        (q, qd), l1, l2 = numpy.array([[0.4, -0.9], [2.0, 1.5]]), 0.3, 0.07
+        with arm() as model:
+            found = model.point_motion(1, [l2 - 0.25, 0, 0], q, qd)
+            angle, turn = q.sum(), qd.sum()
+            upper = l1 * numpy.array([-numpy.sin(q[0]), numpy.cos(q[0]), 0])
+            fore = l2 * numpy.array([-numpy.sin(angle), numpy.cos(angle), 0])
+            self.close(found.velocity, upper * qd[0] + fore * turn, 1e-14)
+            self.close(found.position_q, numpy.stack([upper + fore, fore], axis=1), 1e-14)
+            self.close(found.position_q @ qd, found.velocity, 1e-14)
+            for c, step in enumerate(1e-6 * numpy.eye(2)):
+                ahead, behind = (model.point_motion(1, [l2 - 0.25, 0, 0], q + s, qd).velocity
+                                 for s in (step, -step))
+                self.close(found.velocity_q[:, c], (ahead - behind) / 2e-6, 1e-8)
+            named = model.point_motion(model.links[1].name, [l2 - 0.25, 0, 0], q, qd)
+            self.close(named.velocity, found.velocity, 0)
+            with self.assertRaisesRegex(ValueError, "no link 'nose'"):
+                model.point_motion("nose", [0, 0, 0], q, qd)
+            with self.assertRaisesRegex(ValueError, "local is an array"):
+                model.point_motion(0, [0, 0], q, qd)
+            self.fails("E_ARGUMENT", model.point_motion, 2, [0, 0, 0], q, qd)
+            self.fails("E_NUMERIC", model.point_motion, 1, [0, 0, 0], q, [numpy.nan, 0])

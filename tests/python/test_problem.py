@@ -270,6 +270,47 @@ class Extension(Case):
             with self.assertRaisesRegex(TypeError, "expected a function"):
                 problem.extend(terms=[ambulo.Term("user_term", function="effort")])
 
+    def test_term_and_row_of_the_velocity_of_a_point(self):
+        class HandSpeed:
+            """m/s squared; an object carries what the function needs."""
+
+            def __init__(self, model, local, limit=0.0):
+                self.model, self.local, self.limit = model, local, limit
+
+            def __call__(self, state, gradient, sign=1.0):
+                found = self.model.point_motion("lower", self.local, state.q, state.qd)
+                if gradient is not None:
+                    slope = 2 * sign * found.velocity
+                    gradient.q += slope @ found.velocity_q
+                    gradient.qd += slope @ found.position_q
+                return sign * float(found.velocity @ found.velocity)
+
+            def below(self, state, gradient):
+                return self.limit ** 2 + self(state, gradient, -1.0)
+
+        with ambulo.Problem.load(REACH) as problem:
+            hand = HandSpeed(problem.model, [0, 0, 0], limit=1.5)
+            bare = problem.solve()
+
+            def fastest(result):
+                motion = result.motion()
+                return max(float(numpy.linalg.norm(
+                    hand.model.point_motion("lower", [0, 0, 0], q, qd).velocity))
+                    for q, qd in zip(motion.q, motion.qd))
+
+            own = problem.extend(
+                terms=[ambulo.Term("user_term", function=hand, name="hand", weight=0.1)],
+                user_rows=[ambulo.UserRow("slow hand", "m^2/s^2", "not_negative", 0, 0.8,
+                                          hand.below)])
+            errors = {error.family: error.error
+                      for error in own.check_derivatives(some_point(problem))}
+            self.assertLess(errors["hand"], 1e-6)
+            self.assertLess(errors["slow hand"], 1e-6)
+            slow = own.solve()
+            self.assertEqual(slow.verdict, ambulo.Verdict.OPTIMAL)
+            self.assertGreater(fastest(bare), 1.8)
+            self.assertLess(fastest(slow), 1.5001)
+
     def test_exceptions_come_through(self):
         def fails(state, gradient):
             raise RuntimeError("not today")

@@ -39,7 +39,7 @@ from .batch import Batch, Study, StudyCase, Verified
 from .errors import AmbuloError, AmbuloWarning, Message
 from .files import InverseOfFile, compare, inverse_of_file
 from .fit import Fit, FitReport
-from .mechanics import Gradient, Jacobians, Mechanics
+from .mechanics import Gradient, Jacobians, Mechanics, PointMotion
 from .model import InverseDynamics, Model
 from .motion import Motion
 from .muscles import MuscleAnalysis, Muscles, Sharing
@@ -65,7 +65,7 @@ def versions() -> dict:
 __all__ = [
     "AmbuloError", "AmbuloWarning", "Batch", "Enumeration", "Evaluation", "Fit", "FitReport",
     "Gradient", "InverseDynamics", "InverseOfFile", "Iterate", "Jacobians", "MODELS", "Mechanics",
-    "Message", "Model", "Motion", "MuscleAnalysis", "Muscles", "Problem", "Record", "Result", "Sharing", "Solver", "Study", "StudyCase",
-    "Verified", "callbacks", "compare", "inverse_of_file", "plots", "program", "to_pandas",
-    "versions",
+    "Message", "Model", "Motion", "MuscleAnalysis", "Muscles", "PointMotion", "Problem", "Record",
+    "Result", "Sharing", "Solver", "Study", "StudyCase", "Verified", "callbacks", "compare",
+    "inverse_of_file", "plots", "program", "to_pandas", "versions",
 ] + _record_names

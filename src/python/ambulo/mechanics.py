@@ -36,6 +36,19 @@ class Jacobians(NamedTuple):
     """[n][3 p][d]."""
 
 
+class PointMotion(NamedTuple):
+    """Of one point, world axes; d coordinates."""
+
+    position: numpy.ndarray
+    """[3], m."""
+    velocity: numpy.ndarray
+    """[3], m/s."""
+    position_q: numpy.ndarray
+    """[3][d]: slopes of the position by q, which are those of the velocity by qd."""
+    velocity_q: numpy.ndarray
+    """[3][d]: slopes of the velocity by q."""
+
+
 def array_of(values, shape, what) -> numpy.ndarray:
     """C-contiguous doubles of a shape, which is checked."""
     values = numpy.ascontiguousarray(values, dtype=float)
@@ -55,6 +68,22 @@ def _struct(name, memory):
     for field, pointer in memory.items():
         setattr(struct, field, pointer)
     return struct
+
+
+def point_motion(model: Model, link, local, q, qd) -> PointMotion:
+    """``Model.point_motion``."""
+    body = model._held
+    d = lib.ambulo_model_coordinate_count(body.pointer)
+    number = model.find("link", link) if isinstance(link, str) else int(link)
+    given = [doubles(array_of(values, shape, what)) for values, shape, what in (
+        (local, (3,), "local"), (q, (d,), "q"), (qd, (d,), "qd"))]
+    found = PointMotion(numpy.empty(3), numpy.empty(3), numpy.empty((3, d)), numpy.empty((3, d)))
+    struct = _struct("ambulo_point_motion", dict(zip(PointMotion._fields, map(doubles, found))))
+    status = lib.ambulo_model_point_motion(body.pointer, number, *given, struct)
+    if status:
+        with Call() as call:
+            call(status)
+    return found
 
 
 class Mechanics(Owner):

@@ -1,6 +1,6 @@
 """The skeleton."""
 
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Union
 
 import numpy
 
@@ -8,6 +8,9 @@ from . import _records as records
 from ._native import Call, Handle, Owner, ffi, lib, overrides_of, path_of, text_of
 from .errors import AmbuloError
 from .records import Carrier, from_c
+
+if TYPE_CHECKING:
+    from .mechanics import PointMotion
 
 NULL = ffi.NULL
 KINDS = ("link", "coordinate", "point", "foot", "patch", "capsule")
@@ -232,6 +235,15 @@ class Model(Owner):
 
         with Mechanics(self) as mechanics:
             return mechanics.inverse_dynamics(q, qd, qdd)
+
+    def point_motion(self, link: Union[int, str], local, q, qd) -> "PointMotion":
+        """Position and velocity of any point at one state, with their slopes: ``local`` (m) in the
+        frame of a link, by its name or number (-1: the world); ``q``, ``qd`` [d]. For terms and
+        rows of one's own: ``gradient.q += slope @ found.velocity_q`` and
+        ``gradient.qd += slope @ found.position_q`` carry slopes by the velocity over."""
+        from .mechanics import point_motion
+
+        return point_motion(self, link, local, q, qd)
 
     def __repr__(self):
         if self._handle is None:
