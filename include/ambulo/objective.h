@@ -38,6 +38,8 @@ typedef struct ambulo_node_gradient {
  * to a motion: the solver estimates the curvature of a term from gradients at nearby states. For
  * AMBULO_USER_SQUARE no such estimate is needed, and solves are faster.
  *
+ * ambulo_model_point_motion() (mechanics.h) gives the velocity of any point, with its slopes.
+ *
  * A value or gradient that is not finite rejects the trial point, so a barrier may return NAN
  * beyond its wall. At the start, at an iterate or at the end it is a numeric failure. */
 typedef double (*ambulo_node_function)(void *user, const ambulo_node_state *state,
