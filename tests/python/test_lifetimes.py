@@ -162,7 +162,7 @@ class Closing(Silent):
         x, q = numpy.zeros(problem.variable_count), numpy.zeros((3, 2))
         given = {"x": x, "q": q, "to": problem, "path": "p", "coordinate": 0, "row": 0, "what": "link",
                  "name": "upper", "values": [1.0], "folder": str(self.folder / "out"), "case": 0,
-                 "gait": ambulo.Gait(), "load_link": 0, "terms": []}
+                 "gait": ambulo.Gait(), "load_link": 0, "terms": [], "link": 0, "local": numpy.zeros(3), "qd": q}
         for thing in (result, mechanics, problem, batch, model):
             thing.close()
             names = [name for name in dir(type(thing)) if not name.startswith("_")]
