@@ -162,11 +162,11 @@ static size_t name_length(const char *text) {
   return strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./");
 }
 
-/* models/FILE, of the file itself: its new name; of another: FILE */
+/* models/FILE, of the file itself: its new name; of another: FILE. `file` NULL: as it is */
 static int write_text(FILE *out, const char *text, const char *file, const char *name) {
   static const char folder[] = "models/";
   const char *from = text;
-  for (const char *at = strstr(text, folder); at; at = strstr(at + 1, folder)) {
+  for (const char *at = file ? strstr(text, folder) : NULL; at; at = strstr(at + 1, folder)) {
     const char *what = at + sizeof folder - 1;
     size_t length = name_length(what), own = strlen(file);
     if (length == 0 || (at > text && name_length(at - 1) > name_length(at))) continue;
@@ -206,9 +206,53 @@ static int write_file(const char *path, const char *text, const char *file, int 
   return ambulo_status_exit_code(AMBULO_E_IO);
 }
 
-static int write_new(const ambulo__cli_input *input) {
-  if (input->argument_count == 0) return list_kinds(ambulo__cli_flag(input, "names"));
+/* A model's file as a problem at `output` (NULL: here) names it: as it is from here, its name alone
+ * beside it, or else its whole path. */
+static const char *model_from(const char *model, const char *output, char whole[PATH]) {
+  size_t of_model = (size_t)(base_of(model) - model);
+  size_t of_output = output ? (size_t)(base_of(output) - output) : 0;
+  if (of_output == 0 || model[0] == '/') return model;
+  if (of_model == of_output && strncmp(model, output, of_model) == 0) return model + of_model;
+  return realpath(model, whole) ? whole : model;
+}
+
+/* a walk for a model that is there: its text, to be freed with ambulo_text_free, and the exit code
+ */
+static int walk_for(const ambulo__cli_input *input, const char *model, char **text) {
+  char folder[PATH], whole[PATH];
+  ambulo_walk_options options = ambulo_walk_options_default();
+  if (strcmp(input->arguments[0], "walk") != 0)
+    return ambulo__cli_usage_error("new", NULL, "--for is of 'walk' alone (got '%s')",
+                                   input->arguments[0]);
+  if (!ambulo__cli_number(input, "speed", 1e-3, 100.0, &options.speed) ||
+      !ambulo__cli_number(input, "step-length", 1e-3, 100.0, &options.step_length))
+    return ambulo_status_exit_code(AMBULO_E_ARGUMENT);
+  if (ambulo__cli_shipped_folder(folder, sizeof folder)) options.shipped = folder;
+  options.model = model_from(model, ambulo__cli_value(input, "output"), whole);
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_walk_for(model, &options, NULL, diagnostics, text);
+  int code = ambulo__cli_diagnostics(diagnostics, status, model);
+  ambulo_diagnostics_free(diagnostics);
+  return code;
+}
+
+static int write_walk(const ambulo__cli_input *input, const char *model) {
   const char *path = ambulo__cli_value(input, "output");
+  char *text = NULL;
+  int code = walk_for(input, model, &text);
+  if (code == 0 && path)
+    code = write_file(path, text, NULL, ambulo__cli_flag(input, "force"));
+  else if (code == 0)
+    fputs(text, stdout);
+  ambulo_text_free(text, NULL);
+  return code;
+}
+
+static int write_new(const ambulo__cli_input *input) {
+  const char *path = ambulo__cli_value(input, "output");
+  const char *model = ambulo__cli_value(input, "for");
+  if (input->argument_count == 0) return list_kinds(ambulo__cli_flag(input, "names"));
+  if (model) return write_walk(input, model);
   ambulo__cli_entry *list = NULL;
   int count = ambulo__cli_catalogue(&list), code = 0;
   if (count < 0) return ambulo_status_exit_code(AMBULO_E_IO);
@@ -229,6 +273,9 @@ static int write_new(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option new_options[] = {
     {"output", 'o', "FILE", "write it there (default: standard output)"},
+    {"for", 0, "MODEL.yaml", "with 'walk': a problem in which this model walks"},
+    {"speed", 0, "M/S", "with --for: its speed (default: by the length of the legs)"},
+    {"step-length", 0, "M", "with --for: its step (default: by legs and speed)"},
     {"force", 0, NULL, "replace a file that is there"},
     {"names", 0, NULL, "the names of the kinds, one a line"},
 };
@@ -243,8 +290,11 @@ const ambulo__cli_command ambulo__cli_new = {
         "'ambulo new' lists, or any name that 'ambulo models' lists. The models and tables that "
         "it\n"
         "names are found from anywhere; a file of that name beside it takes precedence. Comments\n"
-        "call the file by the name of -o, or my.yaml.",
-    .example = "ambulo new\nambulo new walk > my.yaml\nambulo new device -o exoskeleton.yaml",
+        "call the file by the name of -o, or my.yaml.\n"
+        "With --for, the walk is made for a model of two legs, such as 'ambulo import' gives: its\n"
+        "speed, steps, weights and rows follow from mass, legs and feet.",
+    .example = "ambulo new\nambulo new walk > my.yaml\nambulo new walk --for robot.yaml -o "
+               "robot_walk.yaml\nambulo new device -o exoskeleton.yaml",
     .options = new_options,
     .option_count = sizeof new_options / sizeof new_options[0],
     .minimum = 0,
