@@ -1,7 +1,8 @@
 /* exchange/body_tree.c - links, bodies, names and notes of a tree (body_tree.h).
  *
- * Reading order: import.c, body_tree.h, body_tree.c, rigid.h, xml.h; urdf.c; osim.c, osim_bodies.c,
- * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, foot_solids.c, mirror_pairs.c; tree_yaml.c.
+ * Reading order: import.c, body_tree.h, body_tree.c, tree_links.c, rigid.h, xml.h; urdf.c; osim.c, osim_bodies.c,
+ * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, legs.c, foot_solids.c, foot_meshes.c, start_pose.c;
+ * mirror_pairs.c, symmetrize.c; tree_yaml.c.
  * The way back: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
  */
 #include "exchange/body_tree.h"
@@ -243,24 +244,6 @@ int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
                     "the axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
                     joint);
   return 0;
-}
-
-void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
-  for (int i = 0; i < 3; i++) {
-    axes[2][i] = -tree->gravity[i];
-    axes[0][i] = tree->forward[i];
-  }
-  (void)ambulo__normalize(axes[2]);
-  ambulo__cross(axes[2], axes[0], axes[1]);
-  (void)ambulo__normalize(axes[1]);
-  ambulo__cross(axes[1], axes[2], axes[0]);
-}
-
-ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent)
-    place = ambulo__rigid_times(&tree->links[i].origin, &place);
-  return place;
 }
 
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback) {

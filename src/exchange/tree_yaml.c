@@ -144,24 +144,18 @@ static void print_corners(const ambulo__tree *tree, const char *key, const int c
 }
 
 static void print_feet(const ambulo__tree *tree, ambulo__text_buffer *text) {
-  const char *right = NULL, *left = NULL;
-  for (int i = 0; i < tree->foot_count; i++) {
-    if (strcmp(tree->feet[i].name, "right") == 0) right = "left";
-    if (strcmp(tree->feet[i].name, "left") == 0) left = "right";
-  }
   ambulo__text_append(text, "\nfeet:\n");
   for (int i = 0; i < tree->foot_count; i++) {
     const ambulo__tree_foot *foot = &tree->feet[i];
+    int mirror = ambulo__tree_mirror_foot(tree, i);
     ambulo__text_append_format(text, "  - {name: %s", foot->name);
     print_corners(tree, "heel", foot->heel, text);
     print_corners(tree, "toe", foot->toe, text);
     ambulo__text_append_format(text, ",\n     heel_center: %s, toe_center: %s",
                                tree->points[foot->heel_center].name,
                                tree->points[foot->toe_center].name);
-    const char *mirror = strcmp(foot->name, "right") == 0  ? right
-                         : strcmp(foot->name, "left") == 0 ? left
-                                                           : NULL;
-    if (mirror && right && left) ambulo__text_append_format(text, ", mirror: %s", mirror);
+    if (mirror >= 0)
+      ambulo__text_append_format(text, ", mirror: %s", tree->feet[mirror].name);
     ambulo__text_append(text, "}\n");
   }
 }
