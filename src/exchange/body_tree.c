@@ -1,9 +1,9 @@
 /* exchange/body_tree.c - links, bodies, names and notes of a tree (body_tree.h).
  *
- * Reading order: import.c, body_tree.h, body_tree.c, tree_links.c, rigid.h, xml.h; urdf.c; osim.c, osim_bodies.c,
- * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, legs.c, foot_solids.c, foot_meshes.c, start_pose.c;
- * mirror_pairs.c, symmetrize.c; tree_yaml.c.
- * The way back: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
+ * Reading order: import.c, body_tree.h, body_tree.c, tree_links.c, rigid.h, xml.h; urdf.c; osim.c,
+ * osim_bodies.c, osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, legs.c, foot_solids.c,
+ * foot_meshes.c, start_pose.c; mirror_pairs.c, symmetrize.c; tree_yaml.c. The way back: export.h,
+ * bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
  */
 #include "exchange/body_tree.h"
 

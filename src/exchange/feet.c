@@ -243,8 +243,7 @@ enum { LONG_FEET = 2 }; /* a body with more of them stands on points */
 
 static void guess_feet(feet *f, int *legless) {
   ambulo__leg legs[MOST_FEET];
-  int count =
-      ambulo__find_legs(f->tree, (const double(*)[3])f->axes, legs, MOST_FEET, legless);
+  int count = ambulo__find_legs(f->tree, (const double(*)[3])f->axes, legs, MOST_FEET, legless);
   for (int k = 0; k < count; k++)
     (void)foot_from_solids(f, legs[k].name, legs[k].link, count > LONG_FEET);
 }
@@ -278,11 +277,12 @@ static void note_no_feet(ambulo__tree *t, int legless) {
       used += (size_t)snprintf(ends + used, sizeof ends - used, "%s%.64s", used ? ", " : "",
                                t->links[i].name);
   if (legless) {
-    ambulo__tree_note(t, NULL,
-                      "no feet: the model has no legs: none of its limbs ends lower than its trunk; "
-                      "--foot NAME=LINK names a foot all the same; links at the ends of the body: "
-                      "%s",
-                      ends);
+    ambulo__tree_note(
+        t, NULL,
+        "no feet: the model has no legs: none of its limbs ends lower than its trunk; "
+        "--foot NAME=LINK names a foot all the same; links at the ends of the body: "
+        "%s",
+        ends);
     return;
   }
   ambulo__tree_note(t, NULL,

@@ -121,8 +121,7 @@ static int measure(ambulo__tree *tree, choice of, const double axes[3][3], ambul
       if (!belongs(tree, s, of)) continue;
       int is_mesh = tree->solids[s].shape == AMBULO__MESH;
       sole->meshes |= is_mesh;
-      if (is_mesh && of.meshes)
-        widen_by_mesh(tree, &tree->solids[s], axes, of.start, pass, sole);
+      if (is_mesh && of.meshes) widen_by_mesh(tree, &tree->solids[s], axes, of.start, pass, sole);
       if (is_mesh) continue;
       int count = world_points(tree, &tree->solids[s], axes, of.start, p);
       for (int k = 0; k < count; k++) widen(sole, pass, p[k]);

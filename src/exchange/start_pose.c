@@ -10,7 +10,6 @@
 
 #include <math.h>
 
-
 static ambulo__rigid start_place(const ambulo__tree *tree, int link) {
   ambulo__rigid place = ambulo__rigid_identity();
   for (int i = link; i >= 0; i = tree->links[i].parent) {
