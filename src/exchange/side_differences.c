@@ -84,8 +84,7 @@ static const char *too_far(const ambulo__sides *s, int i, int j, const double d[
   double limits[AMBULO__SIDE_KINDS] = {
       [AMBULO__SIDE_PLACE] = s->near,
       [AMBULO__SIDE_MASS] = fmax(mass_limit * mass, whole_mass_limit * s->mass),
-      [AMBULO__SIDE_CENTER] =
-          fmax(place_limit, whole_mass_limit * s->mass / fmax(mass, 1e-9) * place_limit) * s->size,
+      [AMBULO__SIDE_CENTER] = fmax(1.0, whole_mass_limit * s->mass / fmax(mass, 1e-9)) * s->near,
       [AMBULO__SIDE_INERTIA] =
           fmax(inertia_limit * inertia, whole_inertia_limit * s->mass * s->size * s->size),
       [AMBULO__SIDE_AXIS] = axis_limit};
