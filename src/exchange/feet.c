@@ -260,6 +260,12 @@ static void stand(feet *f) {
   }
   if (!t->root_free || !isfinite(lowest) || t->link_count == 0) return;
   for (int i = 0; i < 3; i++) t->links[0].origin.p[i] -= lowest * f->axes[2][i];
+  for (int i = t->trunk; i >= 0; i = t->links[i].parent) { /* the source's start stays */
+    ambulo_coordinate *c = &t->links[i].coordinate;
+    double up = ambulo__dot(t->links[i].axis, f->axes[2]);
+    if (t->links[i].type == AMBULO_PRISMATIC && fabs(up) > 0.999 && c->default_value != 0.0)
+      c->default_value += lowest * up;
+  }
 }
 
 static int is_last(const ambulo__tree *t, int link) {
