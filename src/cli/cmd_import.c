@@ -53,8 +53,7 @@ static const ambulo__cli_option options_table[] = {
     {"forward", 0, "DIRECTION",
      "where the body goes: x, -x, y, -y, z, -z or X,Y,Z\n(default: as left and right say, else "
      "heels and toes)"},
-    {"symmetrize", 0, NULL,
-     "make left and right exact mirror images, where they differ by little"},
+    {"symmetrize", 0, NULL, "make left and right exact mirror images, where they differ by little"},
     {"unlock", 0, NULL, "free the coordinates that the source locks"},
     {"repair-inertia", 0, NULL, "increase moments of inertia that are impossible"},
 };

@@ -1,9 +1,9 @@
 /* exchange/body_tree.c - links, bodies, names and notes of a tree (body_tree.h).
  *
- * Reading order: import.c, body_tree.h, body_tree.c, tree_links.c, rigid.h, xml.h; urdf.c; osim.c, osim_bodies.c,
- * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, legs.c, foot_solids.c, foot_meshes.c, start_pose.c;
- * mirror_pairs.c, symmetrize.c; tree_yaml.c.
- * The way back: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
+ * Reading order: import.c, body_tree.h, body_tree.c, tree_links.c, rigid.h, xml.h; urdf.c; osim.c,
+ * osim_bodies.c, osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, legs.c, foot_solids.c,
+ * foot_meshes.c, start_pose.c; mirror_pairs.c, symmetrize.c; tree_yaml.c. The way back: export.h,
+ * bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
  */
 #include "exchange/body_tree.h"
 
@@ -15,9 +15,11 @@
 #include <string.h>
 
 static const double rounding = 1e-15; /* kg m^2: of files that were written by programs */
-static const double LIGHTEST = 1e-9;  /* kg: a body of a model file */
-static const double FARTHEST = 1e4;   /* m: what is larger or farther away is no part of a body */
-enum { MOST_SOLIDS = 2048 };          /* more than a body has, few enough to compare in pairs */
+/* kg, kg m^2: placeholders that weigh nothing, whose inertia may be mended unasked */
+static const double trifle = 1e-3, trifling = 1e-5;
+static const double LIGHTEST = 1e-9; /* kg: a body of a model file */
+static const double FARTHEST = 1e4;  /* m: what is larger or farther away is no part of a body */
+enum { MOST_SOLIDS = 2048 };         /* more than a body has, few enough to compare in pairs */
 
 void ambulo__tree_note(ambulo__tree *tree, const ambulo__xml_node *node, const char *format, ...) {
   va_list arguments;
@@ -141,7 +143,8 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
   double more = repair(body.inertia);
   if (more > 0.0 && more < rounding) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
-  } else if (more > 0.0 && tree->options->repair_inertia) {
+  } else if (more > 0.0 &&
+             (tree->options->repair_inertia || (body.mass <= trifle && more <= trifling))) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
                       "%s: its inertia is impossible: %s kg m^2 were added to its moments", name,

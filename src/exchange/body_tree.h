@@ -227,6 +227,9 @@ int ambulo__other_side(const char *name, char *text, size_t size);
 /* The name with the letter l or r at one place exchanged; 0 where there is another. */
 int ambulo__flip_letter(const char *name, size_t at, char *text, size_t size);
 
+/* The link whose coordinate has the other side's name, and moves alike; itself where there is none.
+ */
+int ambulo__partner_coordinate(const ambulo__tree *tree, int link);
 /* The link whose name is the other side's; -1: none. */
 int ambulo__partner_link(const ambulo__tree *tree, int link);
 /* 'l', 'r' or 0: what the name of a link says; of lfoot only if there is an rfoot. */

@@ -243,8 +243,7 @@ enum { LONG_FEET = 2 }; /* a body with more of them stands on points */
 
 static void guess_feet(feet *f, int *legless) {
   ambulo__leg legs[MOST_FEET];
-  int count =
-      ambulo__find_legs(f->tree, (const double(*)[3])f->axes, legs, MOST_FEET, legless);
+  int count = ambulo__find_legs(f->tree, (const double(*)[3])f->axes, legs, MOST_FEET, legless);
   for (int k = 0; k < count; k++)
     (void)foot_from_solids(f, legs[k].name, legs[k].link, count > LONG_FEET);
 }
@@ -261,6 +260,12 @@ static void stand(feet *f) {
   }
   if (!t->root_free || !isfinite(lowest) || t->link_count == 0) return;
   for (int i = 0; i < 3; i++) t->links[0].origin.p[i] -= lowest * f->axes[2][i];
+  for (int i = t->trunk; i >= 0; i = t->links[i].parent) { /* the source's start stays */
+    ambulo_coordinate *c = &t->links[i].coordinate;
+    double up = ambulo__dot(t->links[i].axis, f->axes[2]);
+    if (t->links[i].type == AMBULO_PRISMATIC && fabs(up) > 0.999 && c->default_value != 0.0)
+      c->default_value += lowest * up;
+  }
 }
 
 static int is_last(const ambulo__tree *t, int link) {
@@ -278,11 +283,12 @@ static void note_no_feet(ambulo__tree *t, int legless) {
       used += (size_t)snprintf(ends + used, sizeof ends - used, "%s%.64s", used ? ", " : "",
                                t->links[i].name);
   if (legless) {
-    ambulo__tree_note(t, NULL,
-                      "no feet: the model has no legs: none of its limbs ends lower than its trunk; "
-                      "--foot NAME=LINK names a foot all the same; links at the ends of the body: "
-                      "%s",
-                      ends);
+    ambulo__tree_note(
+        t, NULL,
+        "no feet: the model has no legs: none of its limbs ends lower than its trunk; "
+        "--foot NAME=LINK names a foot all the same; links at the ends of the body: "
+        "%s",
+        ends);
     return;
   }
   ambulo__tree_note(t, NULL,

@@ -18,9 +18,11 @@
 #include <string.h>
 
 enum { MOST = 8 };
-static const double thickness = 0.02; /* m: a sole that is not quite level is still one */
-static const double shortest = 0.05;  /* m: below it toes of their own belong to the foot */
-static const double pointed = 1e-3;   /* m: what is shorter touches in a point */
+/* m: a sole that is not quite level is still one; on a tip, what is no more than twice that above
+ */
+static const double thickness = 0.02, tilted = 0.04;
+static const double shortest = 0.05; /* m: below it toes of their own belong to the foot */
+static const double pointed = 1e-3;  /* m: what is shorter touches in a point */
 
 /* points[MOST] in the axes of the solid; how many */
 static int points_of(const ambulo__tree_solid *s, const double down[3], double p[MOST][3]) {
@@ -77,6 +79,7 @@ typedef struct choice {
   int leader, toes; /* links; toes -1: none */
   int seen, meshes; /* what only is seen; meshes as well */
   int start;        /* in the start pose */
+  double above;     /* m: what is no higher belongs to the sole */
 } choice;
 
 static int belongs(const ambulo__tree *tree, int solid, choice of) {
@@ -85,9 +88,9 @@ static int belongs(const ambulo__tree *tree, int solid, choice of) {
   return (leader == of.leader || leader == of.toes) && s->seen == of.seen;
 }
 
-static void widen(ambulo__sole *sole, int pass, const double p[3]) {
+static void widen(ambulo__sole *sole, int pass, double above, const double p[3]) {
   if (pass == 0) sole->height = fmin(sole->height, p[2]);
-  if (pass == 0 || p[2] > sole->height + thickness) return;
+  if (pass == 0 || p[2] > sole->height + above) return;
   sole->along[0] = fmin(sole->along[0], p[0]);
   sole->along[1] = fmax(sole->along[1], p[0]);
   sole->across[0] = fmin(sole->across[0], p[1]);
@@ -95,16 +98,16 @@ static void widen(ambulo__sole *sole, int pass, const double p[3]) {
 }
 
 static void widen_by_mesh(ambulo__tree *tree, const ambulo__tree_solid *s, const double axes[3][3],
-                          int start, int pass, ambulo__sole *sole) {
+                          choice of, int pass, ambulo__sole *sole) {
   if (!s->mesh) return;
   ambulo__mesh_read(tree, s->mesh);
-  ambulo__rigid place = solid_place(tree, s, start);
+  ambulo__rigid place = solid_place(tree, s, of.start);
   for (int k = 0; k < s->mesh->count; k++) {
     double own[3], world[3], p[3];
     for (int i = 0; i < 3; i++) own[i] = s->scale[i] * s->mesh->points[3 * k + i];
     ambulo__rigid_point(&place, own, world);
     for (int i = 0; i < 3; i++) p[i] = ambulo__dot(axes[i], world);
-    widen(sole, pass, p);
+    widen(sole, pass, of.above, p);
   }
 }
 
@@ -121,11 +124,10 @@ static int measure(ambulo__tree *tree, choice of, const double axes[3][3], ambul
       if (!belongs(tree, s, of)) continue;
       int is_mesh = tree->solids[s].shape == AMBULO__MESH;
       sole->meshes |= is_mesh;
-      if (is_mesh && of.meshes)
-        widen_by_mesh(tree, &tree->solids[s], axes, of.start, pass, sole);
+      if (is_mesh && of.meshes) widen_by_mesh(tree, &tree->solids[s], axes, of, pass, sole);
       if (is_mesh) continue;
       int count = world_points(tree, &tree->solids[s], axes, of.start, p);
-      for (int k = 0; k < count; k++) widen(sole, pass, p[k]);
+      for (int k = 0; k < count; k++) widen(sole, pass, of.above, p[k]);
     }
   }
   return isfinite(sole->height);
@@ -154,12 +156,20 @@ static int toes_of(ambulo__tree *tree, choice of, const double axes[3][3],
 /* in one pose; toes on a joint of their own belong to a short one */
 static int measure_foot(ambulo__tree *tree, choice of, const double axes[3][3],
                         ambulo__sole *sole) {
+  of.above = thickness;
   if (!measure(tree, of, axes, sole)) return 0;
   if (length_of(sole) >= shortest) return 1;
-  ambulo__sole whole = *sole;
   of.toes = toes_of(tree, of, axes, sole);
-  if (of.toes >= 0 && measure(tree, of, axes, &whole) && length_of(&whole) >= shortest)
-    *sole = whole;
+  for (int k = of.toes < 0; k < 3; k++) {
+    ambulo__sole whole = *sole;
+    choice other = of;
+    if (k == 1) other.toes = -1;
+    if (k > 0) other.above = tilted;
+    if (measure(tree, other, axes, &whole) && length_of(&whole) >= shortest) {
+      *sole = whole;
+      return 1;
+    }
+  }
   return 1;
 }
 
@@ -175,7 +185,7 @@ static int flatter(ambulo__tree *tree, choice of, const double axes[3][3], ambul
 }
 
 int ambulo__height_of(ambulo__tree *tree, int leader, const double axes[3][3], double *height) {
-  choice of = {.leader = leader, .toes = -1, .start = 1};
+  choice of = {.leader = leader, .toes = -1, .start = 1, .above = thickness};
   ambulo__sole sole = {0};
   for (of.seen = 0; of.seen < 2; of.seen++)
     for (of.meshes = 0; of.meshes < 2; of.meshes++)

@@ -89,9 +89,9 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   ambulo__xml *xml = tree->xml;
   read_links(tree, path);
   if (is_well(tree)) ambulo__find_feet(tree);
+  if (is_well(tree) && tree->options->symmetrize) ambulo__symmetrize(tree);
   if (is_well(tree)) ambulo__find_start(tree);
   if (is_well(tree)) ambulo__find_mirrors(tree);
-  if (is_well(tree) && tree->options->symmetrize) ambulo__symmetrize(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
   tree->name = model_name(tree->arena, tree->name);

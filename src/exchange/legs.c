@@ -1,14 +1,15 @@
 /* exchange/legs.c - which limbs are legs, and where they go (body_tree.h).
  *
  * A limb is a link at the end of the body with those above it, up to where limbs part. Its foot is
- * the link named so, else its lowest one by what is fixed to it alone, in the start pose; where both
- * a foot and its toes are on the ground the foot. Legs are the limbs with a foot named so, else
- * those that reach nearly as low as the lowest one; of limbs that part on one leg (rods, cranks) the
- * lowest counts. Names say left and right, else the side of the middle on which a foot is. With two
- * or more on each side they are counted from the front.
+ * the link named so, else its lowest one by what is fixed to it alone, in the start pose; where
+ * both a foot and its toes are on the ground the foot. Legs are the limbs with a foot named so,
+ * else those that reach nearly as low as the lowest one; of limbs that part on one leg (rods,
+ * cranks) the lowest counts. Names say left and right, else the side of the middle on which a foot
+ * is. With two or more on each side they are counted from the front.
  *
  * Forward is across left and up. Left is where links are that names call left, from those they call
- * right; where no name says it, the toes are: a sole reaches further ahead of its ankle than behind.
+ * right; where no name says it, the toes are: a sole reaches further ahead of its ankle than
+ * behind.
  */
 #include "exchange/body_tree.h"
 
@@ -21,8 +22,8 @@
 #include <strings.h>
 
 enum { MOST_LIMBS = 64 };
-static const double reach = 0.15;   /* of the height: how much higher a leg without a name may end */
-static const double level = 0.02;   /* m: no difference in height */
+static const double reach = 0.15; /* of the height: how much higher a leg without a name may end */
+static const double level = 0.02; /* m: no difference in height */
 static const double beside = 0.005; /* m: off the middle */
 
 typedef struct limb {

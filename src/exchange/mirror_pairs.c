@@ -137,13 +137,12 @@ char ambulo__side_of_link(const ambulo__tree *tree, int link) {
   return (char)tolower((unsigned char)own[i]);
 }
 
-/* the coordinate of the other side by name; the link itself where there is none; *lonely: its name
- * says a side */
-static int partner_of(const ambulo__tree *tree, int link, int *lonely) {
+int ambulo__partner_coordinate(const ambulo__tree *tree, int link) {
   const char *own = tree->links[link].coordinate.name;
   int partner = partner_by_name(tree, own, ambulo__tree_find_coordinate);
-  *lonely = partner < 0 && ambulo__side_of(own) != 0;
-  return partner < 0 ? link : partner;
+  if (partner < 0 || tree->links[partner].type != tree->links[link].type) return link;
+  own = tree->links[partner].coordinate.name;
+  return partner_by_name(tree, own, ambulo__tree_find_coordinate) == link ? partner : link;
 }
 
 void ambulo__find_mirrors(ambulo__tree *tree) {
@@ -153,14 +152,11 @@ void ambulo__find_mirrors(ambulo__tree *tree) {
   left_of(tree, left);
   for (int i = 0; i < tree->link_count; i++) {
     ambulo__tree_link *link = &tree->links[i];
-    int alone = 0;
     if (link->type == AMBULO_FIXED) continue;
-    int partner = partner_of(tree, i, &alone);
-    if (partner_of(tree, partner, &alone) != i || tree->links[partner].type != link->type)
-      partner = i;
+    int partner = ambulo__partner_coordinate(tree, i);
     double sign = sign_of(tree, i, partner, left);
     link->has_mirror = sign != 0.0;
-    if (alone && !link->has_mirror) {
+    if (partner == i && !link->has_mirror && ambulo__side_of(link->coordinate.name)) {
       lonely++;
       example = link->coordinate.name;
     }

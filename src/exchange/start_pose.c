@@ -10,7 +10,6 @@
 
 #include <math.h>
 
-
 static ambulo__rigid start_place(const ambulo__tree *tree, int link) {
   ambulo__rigid place = ambulo__rigid_identity();
   for (int i = link; i >= 0; i = tree->links[i].parent) {
@@ -72,7 +71,8 @@ static void start_pose_stand(ambulo__tree *tree) {
   ambulo_coordinate *c = &tree->links[link].coordinate;
   double value = c->default_value - lowest / along;
   if (!(value >= c->range[0] && value <= c->range[1])) return;
-  c->default_value = value;
+  c->default_value = fabs(value) < 1e-9 ? 0.0 : value;
+  value = c->default_value;
   if (fabs(lowest) > 1e-3)
     ambulo__tree_note(tree, tree->links[link].node,
                       "%s starts at %s m, %s mm %s than in the source, so that the feet stand on "

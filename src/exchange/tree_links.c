@@ -49,8 +49,8 @@ int ambulo__tree_hangs_on(const ambulo__tree *tree, int link, int above) {
   return link == above;
 }
 
-/* Of the links that a joint hangs on a leader, -1: of the first ones, that with the most mass on it:
- * scenes have balls and boxes as well. */
+/* Of the links that a joint hangs on a leader, -1: of the first ones, that with the most mass on
+ * it: scenes have balls and boxes as well. */
 static int heaviest_on(const ambulo__tree *tree, int leader) {
   int best = -1;
   double most = -1.0;

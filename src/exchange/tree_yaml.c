@@ -154,8 +154,7 @@ static void print_feet(const ambulo__tree *tree, ambulo__text_buffer *text) {
     ambulo__text_append_format(text, ",\n     heel_center: %s, toe_center: %s",
                                tree->points[foot->heel_center].name,
                                tree->points[foot->toe_center].name);
-    if (mirror >= 0)
-      ambulo__text_append_format(text, ", mirror: %s", tree->feet[mirror].name);
+    if (mirror >= 0) ambulo__text_append_format(text, ", mirror: %s", tree->feet[mirror].name);
     ambulo__text_append(text, "}\n");
   }
 }
