@@ -97,8 +97,8 @@ static int print_values(const fitted *f, const ambulo_term *term, column what, i
   return found;
 }
 
-static void print_key(const fitted *f, const char *key, double value) {
-  ambulo__text_append_format(f->text, "    %s: ", key);
+static void print_key(const fitted *f, int indent, const char *key, double value) {
+  ambulo__text_append_format(f->text, "%*s%s: ", indent, "", key);
   ambulo__walk_number(f->text, value);
   ambulo__text_append(f->text, "\n");
 }
@@ -110,7 +110,7 @@ static void print_upright(const fitted *f, const ambulo_term *term) {
     if (ambulo_model_find_point(f->walker->model, names[k]) < 0) return;
   }
   ambulo__text_append(f->text, "  - term: upright\n");
-  print_key(f, "weight", term->weight);
+  print_key(f, 4, "weight", term->weight);
   ambulo__text_append_format(f->text, "    points: [%s, %s]\n", names[0], names[1]);
 }
 
@@ -125,9 +125,9 @@ static void print_term(const fitted *f, const ambulo_term *term) {
   ambulo__text_append_format(f->text, "  - term: %s\n", info->name);
   if (term->name && strcmp(term->name, info->name) != 0)
     ambulo__text_append_format(f->text, "    name: %s\n", term->name);
-  if (term->weight != 1.0) print_key(f, "weight", term->weight);
-  if (info->members & AMBULO__TERM_POWER) print_key(f, "power", term->power);
-  if (info->members & AMBULO__TERM_SMOOTHING) print_key(f, "smoothing", term->smoothing);
+  if (term->weight != 1.0) print_key(f, 4, "weight", term->weight);
+  if (info->members & AMBULO__TERM_POWER) print_key(f, 4, "power", term->power);
+  if (info->members & AMBULO__TERM_SMOOTHING) print_key(f, 4, "smoothing", term->smoothing);
   if (!by_coordinate) return;
   print_values(f, term, SCALE, 1);
   print_values(f, term, STRENGTH, 1);
@@ -177,28 +177,48 @@ static void print_gait(const fitted *f, double width) {
                                "0.609}\n\n");
 }
 
+/* soles of people give: an edge presses over some width */
+static void print_pressure(const fitted *f, double size) {
+  static const double heel[2] = {-0.01, 0.01}, flat[2] = {0.0, 0.02}, toe[2] = {-0.02, 0.02};
+  static const struct {
+    const char *name;
+    const double *values;
+  } boxes[] = {{"heel", heel}, {"flat", flat}, {"toe", toe}};
+  const double width = 0.04 * size;
+  ambulo__text_append(f->text, "  # a sole gives: its edges press over a width\n");
+  ambulo__walk_map map = ambulo__walk_map_begin(f->text, 2, "pressure");
+  for (int i = 0; i < 3; i++) {
+    const double scaled[2] = {size * boxes[i].values[0], size * boxes[i].values[1]};
+    ambulo__walk_map_item(&map, boxes[i].name, scaled, 2);
+  }
+  ambulo__walk_map_item(&map, "width", &width, 1);
+  ambulo__walk_map_end(&map);
+}
+
 static void print_rows(const fitted *f, double stature) {
+  double size = stature / 1.75;
   const ambulo_ground_reaction *ground = &f->from->ground_reaction;
   const ambulo_clearance *clearance = &f->from->clearance;
   static const double degree = 0.017453292519943295;
-  ambulo__text_append(f->text, "ground_reaction:\n    kind: shared\n");
-  print_key(f, "moment_arm", ground->moment_arm);
-  print_key(f, "slant", ground->slant);
-  print_key(f, "loading_rate", ground->loading_rate);
-  print_key(f, "friction", ground->friction);
-  print_key(f, "free_moment", ground->free_moment);
-  print_key(f, "minimum_force", f->from->minimum_force);
-  print_key(f, "heel_pad", ground->heel_pad);
+  ambulo__text_append(f->text, "ground_reaction:\n  kind: shared\n");
+  print_key(f, 2, "moment_arm", ground->moment_arm);
+  print_key(f, 2, "slant", ground->slant);
+  print_key(f, 2, "loading_rate", ground->loading_rate);
+  print_key(f, 2, "friction", ground->friction);
+  print_key(f, 2, "free_moment", ground->free_moment);
+  print_key(f, 2, "minimum_force", f->from->minimum_force);
+  print_key(f, 2, "heel_pad", ground->heel_pad);
+  print_pressure(f, size);
   ambulo__text_append(f->text, "\nconstraints:\n");
-  print_key(f, "contact_tolerance", 0.001 * stature / 1.75);
-  print_key(f, "orientation_tolerance", f->from->orientation_tolerance);
-  ambulo__text_append(f->text, "    strike_pitch: [");
+  print_key(f, 2, "contact_tolerance", 0.001 * size);
+  print_key(f, 2, "orientation_tolerance", f->from->orientation_tolerance);
+  ambulo__text_append(f->text, "  strike_pitch: [");
   ambulo__walk_number(f->text, f->from->strike_pitch[0] / degree);
   ambulo__text_append(f->text, ", ");
   ambulo__walk_number(f->text, f->from->strike_pitch[1] / degree);
-  ambulo__text_append(f->text, "]\n    clearance: {height: ");
+  ambulo__text_append(f->text, "]\n  clearance: {height: ");
   ambulo__walk_number(f->text, clearance->height);
-  ambulo__text_append(f->text, ", tip_from: 0.15}\n    joint_limits: nodes\n");
+  ambulo__text_append(f->text, ", tip_from: 0.15}\n  joint_limits: nodes\n");
   ambulo__text_append_format(f->text, "\nends: {kind: %s, order: 2}\n\n",
                              f->walker->symmetric ? "mirrored" : "periodic");
 }
@@ -225,14 +245,6 @@ static void print_rest(const fitted *f) {
   }
 }
 
-/* how far apart the shipped gait puts its feet, and at least as wide as these are */
-static double width_of(const fitted *f) {
-  double place[2] = {0, 0};
-  for (int i = 0; i < f->from->contact_count; i++)
-    place[f->from->contacts[i].place[1] > 0.0] = f->from->contacts[i].place[1];
-  return place[1] - place[0];
-}
-
 ambulo_status ambulo__walk_of_person(const ambulo__walker *walker, const char *shipped,
                                      ambulo_diagnostics *diagnostics, ambulo__text_buffer *text) {
   char path[PATH], set[3][80];
@@ -250,7 +262,7 @@ ambulo_status ambulo__walk_of_person(const ambulo__walker *walker, const char *s
   if (status) return status;
   const fitted f = {walker, &problem->definition, text};
   print_head(&f, stature);
-  print_gait(&f, width_of(&f));
+  print_gait(&f, 0.12 * stature / 1.75);
   print_rows(&f, stature);
   ambulo__text_append(text, "objective:\n");
   for (int t = 0; t < f.from->term_count; t++) print_term(&f, &f.from->terms[t]);
