@@ -250,6 +250,8 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
 void ambulo__find_feet(ambulo__tree *tree);
 /* Defaults within their ranges, the feet on the ground (start_pose.c). */
 void ambulo__find_start(ambulo__tree *tree);
+/* trunk_points.c: `lumbar` and `head_top`, of a model of a person. */
+void ambulo__find_trunk_points(ambulo__tree *tree);
 /* Partners of coordinates, left for right (mirror_pairs.c). */
 void ambulo__find_mirrors(ambulo__tree *tree);
 /* Left and right made exact images of each other; an error where they differ by too much

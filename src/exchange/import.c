@@ -92,6 +92,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (is_well(tree) && tree->options->symmetrize) ambulo__symmetrize(tree);
   if (is_well(tree)) ambulo__find_start(tree);
   if (is_well(tree)) ambulo__find_mirrors(tree);
+  if (is_well(tree)) ambulo__find_trunk_points(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
   tree->name = model_name(tree->arena, tree->name);

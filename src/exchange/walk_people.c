@@ -165,7 +165,7 @@ static void print_gait(const fitted *f, double width) {
       "time: {grid: events, intervals: %d}\n"
       "trajectory: {basis: bspline, degree: 4, intervals: %d, knots: events}\n\n"
       "gait:\n  steps: %d\n  first_foot: %s\n",
-      96 * steps, 14 * steps, steps, ambulo_model_foot(w->model, w->foot[0])->name);
+      112 * steps, 14 * steps, steps, ambulo_model_foot(w->model, w->foot[0])->name);
   ambulo__text_append(f->text, "  speed: ");
   ambulo__walk_number(f->text, w->speed);
   ambulo__text_append(f->text, "\n  step_length: ");

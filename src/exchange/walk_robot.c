@@ -6,7 +6,7 @@
  *     speed      v = 0.2 sqrt(g l),  step s = 0.4 l         at l = 0.7 m: 0.52 m/s, 0.28 m
  *     objective  60 sum (tau / (m g l))^2 + 0.002 sum (qdd l / g)^2 + 20 tilt^2 + rest (q - q0)^2
  *     contact    within 0.003 l, clear by 0.03 l, moments of the ground as forces at 0.25 l
- *     loading    5.3 sqrt(g / l) body weights per second
+ *     loading    3.2 sqrt(g / l) body weights per second
  *
  * A speed given alone brings its step along, s ~ sqrt(v): people keep the ratio of step length and
  * cadence. Feet come down and leave flat: a rigid sole on its edge would leave the centre of
@@ -15,7 +15,7 @@
 
 #include <math.h>
 
-enum { STEP_INTERVALS = 80, STEP_PIECES = 14 };
+enum { STEP_INTERVALS = 64, STEP_PIECES = 10 };
 
 static void line_of(ambulo__text_buffer *text, const char *before, double value, const char *after) {
   ambulo__text_append(text, before);
@@ -53,14 +53,14 @@ static void print_gait(const ambulo__walker *w, ambulo__text_buffer *text) {
   if (!w->planar) line_of(text, "  step_width: ", w->width, " # m: as the feet stand\n");
   ambulo__text_append(text,
                       "  # shares of a stride: feet come down and leave flat, both are down for "
-                      "8 % twice\n"
-                      "  phases: {heel_strike: 0, foot_flat: 0, heel_off: 0.58, toe_off: 0.58}\n\n");
+                      "10 % twice\n"
+                      "  phases: {heel_strike: 0, foot_flat: 0, heel_off: 0.6, toe_off: 0.6}\n\n");
 }
 
 static void print_rows(const ambulo__walker *w, ambulo__text_buffer *text) {
   double l = w->leg;
   line_of(text, "ground_reaction:\n  kind: shared\n  moment_arm: ", 0.25 * l, "\n");
-  line_of(text, "  loading_rate: ", 5.3 * sqrt(w->gravity / l), " # body weights per second\n");
+  line_of(text, "  loading_rate: ", 3.2 * sqrt(w->gravity / l), " # body weights per second\n");
   line_of(text, "  friction: 0.5\n  free_moment: ", 0.03 * l, "\n  minimum_force: 0.2\n\n");
   line_of(text, "constraints:\n  contact_tolerance: ", 0.003 * l, "\n");
   ambulo__text_append(text, "  orientation_tolerance: 0.01\n");
