@@ -41,7 +41,7 @@ typedef struct body {
   int count;
 } body;
 
-static const char *const feet[] = {"foot", "sole", "calcn", NULL};
+static const char *const footed[] = {"foot", "sole", "calcn", NULL};
 static const char *const arms[] = {"hand",  "gripper",  "finger", "palm",
                                    "wrist", "shoulder", "elbow",  NULL};
 
@@ -115,7 +115,7 @@ static limb limb_of(body *b, int end) {
   limb l = {.link = end};
   for (int i = end; i >= 0 && i != b->trunk; i = joint_above(t, i)) {
     if (i != end && joints_below(t, i) > 1) break;
-    int known = 0, named = is_named(t, i, feet);
+    int known = 0, named = is_named(t, i, footed);
     double height = height_of(b, i, &known);
     double most = l.height + (known ? 1e-3 : -1e-3);
     if (named != l.named ? l.named : i != end && height > most) continue;
@@ -157,6 +157,8 @@ static void find_limbs(body *b) {
     if (t->links[i].type != AMBULO_FIXED && i != b->trunk && joints_below(t, i) == 0 &&
         ambulo__tree_hangs_on(t, i, b->trunk))
       add_limb(b, limb_of(b, i));
+  if (b->count == 0 && b->trunk >= 0 && is_named(t, b->trunk, footed))
+    b->limbs[b->count++] = (limb){.link = b->trunk, .top = b->trunk, .named = 1, .known = 1};
 }
 
 static void keep(body *b, int (*wanted)(const limb *l, double most), double most) {
