@@ -42,10 +42,9 @@ static void touching_before_seen(void **state) {
 /* The foot is level in the start pose alone: at q = 0 it stands on its tip. */
 static void flat_in_the_start_pose(void **state) {
   import_case c = import_good(
-      state,
-      HEAD FOOT(MASS "<geom type='box' size='.1 .05 .01' euler='0 -60 0' mass='0'/>") TAIL(
-          "<keyframe><key qpos='0 0 1 1 0 0 0 -.5235987755982988 1.0471975511965976 "
-          ".5235987755982988'/></keyframe>"));
+      state, HEAD FOOT(MASS "<geom type='box' size='.1 .05 .01' euler='0 -60 0' mass='0'/>")
+                 TAIL("<keyframe><key qpos='0 0 1 1 0 0 0 -.5235987755982988 1.0471975511965976 "
+                      ".5235987755982988'/></keyframe>"));
   const double *heel = point_of(&c, "right_heel"), *toe = point_of(&c, "right_toe");
   assert_close(hypot(toe[0] - heel[0], toe[2] - heel[2]), 0.2, 1e-9);
   import_shut(&c);
@@ -54,8 +53,8 @@ static void flat_in_the_start_pose(void **state) {
 /* A ball stands on what is below it in the start pose. */
 static void a_ball(void **state) {
   import_case c =
-      import_good(state, HEAD FOOT(MASS "<geom size='.05' mass='0'/>") TAIL(
-                             "<keyframe><key qpos='0 0 1 1 0 0 0 .3 0 0'/></keyframe>"));
+      import_good(state, HEAD FOOT(MASS "<geom size='.05' mass='0'/>")
+                             TAIL("<keyframe><key qpos='0 0 1 1 0 0 0 .3 0 0'/></keyframe>"));
   is_at(&c, "right_heel", .05 * sin(.3), -.05 * cos(.3));
   is_at(&c, "right_toe", .05 * sin(.3) + .005 * cos(.3), -.05 * cos(.3) + .005 * sin(.3));
   import_shut(&c);
@@ -64,8 +63,8 @@ static void a_ball(void **state) {
 /* 0.12 m long, and 10 degrees from level: its heel is 2.1 cm above its tip */
 static void a_tilted_sole(void **state) {
   import_case c = import_good(
-      state, HEAD FOOT(MASS "<geom type='capsule' size='.02 .06' euler='0 100 0' mass='0'/>")
-                 TAIL(""));
+      state,
+      HEAD FOOT(MASS "<geom type='capsule' size='.02 .06' euler='0 100 0' mass='0'/>") TAIL(""));
   const double *heel = point_of(&c, "right_heel"), *toe = point_of(&c, "right_toe");
   assert_close(toe[0] - heel[0], .12 * cos(.17453292519943295), 1e-9);
   import_shut(&c);
@@ -75,19 +74,19 @@ static void a_tilted_sole(void **state) {
 static void toes_but_no_shank(void **state) {
 #define BALL(x, z) "<geom size='.02' pos='" x " 0 " z "' mass='0'/>"
   import_case c = import_good(
-      state, HEAD FOOT(MASS BALL("-.05", "-.05") "<body name='toes_r' pos='.1 0 0'>" MASS
-                           BALL(".05", "-.05") "<joint name='mtp' axis='0 1 0'/></body>") TAIL(""));
+      state, HEAD FOOT(MASS BALL("-.05", "-.05") "<body name='toes_r' pos='.1 0 0'>" MASS BALL(
+                 ".05", "-.05") "<joint name='mtp' axis='0 1 0'/></body>") TAIL(""));
   is_at(&c, "right_heel", -.05, -.07);
   is_at(&c, "right_toe", .15, -.07);
   import_shut(&c);
-  c = import_good(state, HEAD BALL("0", "-.3") "<body name='end_r' pos='0 0 -.4'>"
-                                               "<joint name='ankle' axis='0 1 0'/>" MASS
-                                               "<geom type='box' size='.1 .05 .01' mass='0'/></body>"
-                             TAIL(""));
+  c = import_good(
+      state, HEAD BALL("0", "-.3") "<body name='end_r' pos='0 0 -.4'>"
+                                   "<joint name='ankle' axis='0 1 0'/>" MASS
+                                   "<geom type='box' size='.1 .05 .01' mass='0'/></body>" TAIL(""));
   is_at(&c, "right_heel", -.1, -.01);
   int heel = ambulo_model_find_point(c.model, "right_heel");
-  assert_string_equal(
-      ambulo_model_link(c.model, ambulo_model_point(c.model, heel)->link)->name, "end_r");
+  assert_string_equal(ambulo_model_link(c.model, ambulo_model_point(c.model, heel)->link)->name,
+                      "end_r");
   import_shut(&c);
 }
 
@@ -110,9 +109,12 @@ static void a_foot_by_its_inertia(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(touching_before_seen), cmocka_unit_test(flat_in_the_start_pose),
-      cmocka_unit_test(a_ball),               cmocka_unit_test(a_tilted_sole),
-      cmocka_unit_test(toes_but_no_shank),    cmocka_unit_test(a_foot_by_its_inertia),
+      cmocka_unit_test(touching_before_seen),
+      cmocka_unit_test(flat_in_the_start_pose),
+      cmocka_unit_test(a_ball),
+      cmocka_unit_test(a_tilted_sole),
+      cmocka_unit_test(toes_but_no_shank),
+      cmocka_unit_test(a_foot_by_its_inertia),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

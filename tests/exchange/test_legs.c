@@ -39,8 +39,8 @@ static void the_lowest_link_of_a_leg(void **state) {
 #define LONG(side, y)                                                                              \
   "<body name='" side "_hip' pos='0 " y " -.1'><joint name='" side "_h' axis='1 0 0'/>" MASS BALL  \
   "<body name='" side "_shank' pos='0 0 -.4'><joint name='" side "_k' axis='0 1 0'/>" MASS BALL    \
-  "<body name='" side "_ankle' pos='0 0 -.4'><joint name='" side "_a' axis='0 1 0'/>" MASS         \
-  BOX(".1 .05 .02", ".03 0 -.05") "</body></body></body>"
+  "<body name='" side "_ankle' pos='0 0 -.4'><joint name='" side                                   \
+  "_a' axis='0 1 0'/>" MASS BOX(".1 .05 .02", ".03 0 -.05") "</body></body></body>"
   legs(state, HEAD LONG("right", "-.1") LONG("left", ".1") TAIL,
        "right:right_ankle>left left:left_ankle>right");
 }
@@ -49,8 +49,8 @@ static void the_lowest_link_of_a_leg(void **state) {
 static void arms_are_no_legs(void **state) {
   legs(state,
        HEAD LEG("r_", "0 -.1 0", BOX(".1 .05 .01", "0 0 -.4"))
-           LEG("l_", "0 .1 0", BOX(".1 .05 .01", "0 0 -.4"))
-               LEG("r_arm_", "0 -.3 .5", TIP) LEG("l_arm_", "0 .3 .5", TIP) TAIL,
+           LEG("l_", "0 .1 0", BOX(".1 .05 .01", "0 0 -.4")) LEG("r_arm_", "0 -.3 .5", TIP)
+               LEG("l_arm_", "0 .3 .5", TIP) TAIL,
        "right:r_end>left left:l_end>right");
   import_case c =
       import_good(state, HEAD LEG("r_elbow_", "0 -.3 0", TIP) LEG("l_elbow_", "0 .3 0", TIP) TAIL);
@@ -92,8 +92,8 @@ static void four_and_six(void **state) {
 static void a_ball_in_the_scene(void **state) {
   legs(state,
        "<mujoco><worldbody><body name='ball' pos='3 0 0'><freejoint/><geom size='.1' mass='.1'/>"
-       "</body><body name='trunk' pos='0 0 1'><freejoint name='root'/>" MASS
-           LEG("r_", "0 -.1 0", TIP) LEG("l_", "0 .1 0", TIP) TAIL,
+       "</body><body name='trunk' pos='0 0 1'><freejoint name='root'/>" MASS LEG(
+           "r_", "0 -.1 0", TIP) LEG("l_", "0 .1 0", TIP) TAIL,
        "right:r_end>left left:l_end>right");
 }
 
@@ -128,8 +128,7 @@ static void forward_is(import_case c, double x, double y, double z) {
 #define PAIR(y) LEG("r_", "0 -" y " 0", TIP) LEG("l_", "0 " y " 0", TIP)
 
 static void forward(void **state) {
-  static const char sideways[] =
-      HEAD LEG("r_", "-.1 0 0", TIP) LEG("l_", ".1 0 0", TIP) TAIL;
+  static const char sideways[] = HEAD LEG("r_", "-.1 0 0", TIP) LEG("l_", ".1 0 0", TIP) TAIL;
   forward_is(import_good(state, HEAD PAIR(".1") TAIL), 1, 0, 0);
   forward_is(import_good(state, HEAD LEG("r_", "0 .1 0", TIP) LEG("l_", "0 -.1 0", TIP) TAIL), -1,
              0, 0);
@@ -148,8 +147,7 @@ static void forward(void **state) {
 
 /* The coordinates of a free body are about the new axes: tilt about left, list about forward. */
 static void free_coordinates_follow(void **state) {
-  import_case c =
-      import_good(state, HEAD LEG("r_", "0 .1 0", TIP) LEG("l_", "0 -.1 0", TIP) TAIL);
+  import_case c = import_good(state, HEAD LEG("r_", "0 .1 0", TIP) LEG("l_", "0 -.1 0", TIP) TAIL);
   assert_non_null(strstr(c.text, "forward: [-1, 0, 0]"));
   assert_non_null(strstr(c.text, "axis: [0, -1, 0],\n     coordinate: {name: root_tilt"));
   assert_int_equal(ambulo_model_check_mirror(c.model, NULL, NULL), AMBULO_OK);
@@ -157,8 +155,8 @@ static void free_coordinates_follow(void **state) {
 }
 
 static void no_direction(void **state) {
-  static const char *const words[] = {"z", "-z", "w", "", "x,y,z", "1,2", "1,2,3,4", "0,0,0",
-                                      "0,0,2"};
+  static const char *const words[] = {"z",   "-z",      "w",     "",     "x,y,z",
+                                      "1,2", "1,2,3,4", "0,0,0", "0,0,2"};
   for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
     import_case c = towards(state, HEAD PAIR(".1") TAIL, words[i]);
     assert_int_equal(c.status, AMBULO_E_ARGUMENT);
@@ -176,10 +174,13 @@ static void a_foot_that_is_not_the_lowest(void **state) {
   o.foot_count = 2;
   import_case c = import_text(
       state,
-      HEAD "<body name='r_thigh' pos='0 -.1 0'><joint name='r_h' axis='0 1 0'/>" MASS
-           BOX(".1 .05 .01", "0 0 -.1") "<body name='r_end' pos='0 0 -.4'>"
-           "<joint name='r_k' axis='0 1 0'/>" MASS BOX(".1 .05 .01", "0 0 -.4") "</body></body>"
-           LEG("l_", "0 .1 0", BOX(".1 .05 .01", "0 0 -.4")) TAIL,
+      HEAD "<body name='r_thigh' pos='0 -.1 0'><joint name='r_h' axis='0 1 0'/>" MASS BOX(
+          ".1 .05 .01", "0 0 -.1") "<body name='r_end' pos='0 0 -.4'>"
+                                   "<joint name='r_k' axis='0 1 0'/>" MASS BOX(
+                                       ".1 .05 .01",
+                                       "0 0 -.4") "</body></body>" LEG("l_", "0 .1 0",
+                                                                       BOX(".1 .05 .01", "0 0 -.4"))
+                                       TAIL,
       &o);
   assert_int_equal(c.status, AMBULO_OK);
   feet_are(&c, "right:r_thigh>left left:l_end>right");
@@ -195,10 +196,14 @@ static void a_foot_that_is_not_the_lowest(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_lowest_link_of_a_leg), cmocka_unit_test(arms_are_no_legs),
-      cmocka_unit_test(four_and_six),             cmocka_unit_test(a_ball_in_the_scene),
-      cmocka_unit_test(rods_are_no_feet),         cmocka_unit_test(forward),
-      cmocka_unit_test(free_coordinates_follow),  cmocka_unit_test(no_direction),
+      cmocka_unit_test(the_lowest_link_of_a_leg),
+      cmocka_unit_test(arms_are_no_legs),
+      cmocka_unit_test(four_and_six),
+      cmocka_unit_test(a_ball_in_the_scene),
+      cmocka_unit_test(rods_are_no_feet),
+      cmocka_unit_test(forward),
+      cmocka_unit_test(free_coordinates_follow),
+      cmocka_unit_test(no_direction),
       cmocka_unit_test(a_foot_that_is_not_the_lowest),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

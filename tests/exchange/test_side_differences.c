@@ -9,12 +9,14 @@ static void arms(void **state, const char *right, ambulo_status status, const ch
   ambulo_import_options o = ambulo_import_options_default();
   o.symmetrize = 1;
   char text[2400];
-  (void)snprintf(text, sizeof text,
-                 "<mujoco><worldbody><body name='trunk'><freejoint name='root'/>"
-                 INERTIAL("0 0 0", "5", ".1 .1 .1")
-                 "<body name='arm_l' pos='0 .5 0'><joint name='arm_l' axis='1 0 0'/>"
-                 INERTIAL("0 .1 0", "1", ".1 .1 .02") "</body>%s</body></worldbody></mujoco>",
-                 right);
+  (void)snprintf(
+      text, sizeof text,
+      "<mujoco><worldbody><body name='trunk'><freejoint name='root'/>" INERTIAL(
+          "0 0 0", "5",
+          ".1 .1 .1") "<body name='arm_l' pos='0 .5 0'><joint name='arm_l' axis='1 0 "
+                      "0'/>" INERTIAL("0 .1 0", "1",
+                                      ".1 .1 .02") "</body>%s</body></worldbody></mujoco>",
+      right);
   import_case c = import_text(state, text, &o);
   if (c.status != status) import_print(&c);
   assert_int_equal(c.status, status);
@@ -57,7 +59,7 @@ static void no_images(void **state) {
        "'arm_l' and its own image 'arm_l' differ too much (got 0.5 m between joints)");
   arms(state,
        "<body name='plate'><joint name='plate' axis='0 1 0'/>" INERTIAL("0 0 0", "1", ".1 .1 .1")
-       ARM("0 -.5 0", "1 0 0", SAME) "</body>",
+           ARM("0 -.5 0", "1 0 0", SAME) "</body>",
        AMBULO_E_MODEL, "'arm_l' and 'arm_r' are no images (they hang on different links");
 }
 

@@ -9,19 +9,25 @@
   "<inertial pos='" at "' mass='" mass "' diaginertia='" moments "'/>"
 #define LEG(side, hip, axis, mass, range, more)                                                    \
   "<body name='thigh_" side "' pos='" hip "'><joint name='roll_" side "' axis='" axis              \
-  "' limited='true' range='" range "'/>" INERTIAL("0 0 -.2", mass, ".02 .02 .01")                  \
-  "<body name='shank_" side "' pos='0 0 -.4'><joint name='knee_" side "' axis='0 1 0'/>"           \
-  INERTIAL("0 0 -.2", "1", ".02 .02 .01") more                                                     \
-  "<body name='foot_" side "' pos='0 0 -.4'><joint name='ankle_" side "' axis='0 1 0'/>"           \
-  INERTIAL(".03 0 0", ".5", ".001 .002 .003")                                                      \
-  "<geom type='box' size='.1 .04 .02' pos='.03 0 -.03' mass='0'/></body></body></body>"
+  "' limited='true' range='" range                                                                 \
+  "'/>" INERTIAL("0 0 -.2", mass, ".02 .02 .01") "<body name='shank_" side                         \
+                                                 "' pos='0 0 -.4'><joint name='knee_" side         \
+                                                 "' axis='0 1 0'/>" INERTIAL("0 0 -.2", "1",       \
+                                                                             ".02 .02 .01") more   \
+      "<body name='foot_" side "' pos='0 0 -.4'><joint name='ankle_" side                          \
+      "' axis='0 1 0'/>" INERTIAL(".03 0 0", ".5",                                                 \
+                                  ".001 .002 .003") "<geom type='box' size='.1 .04 .02' pos='.03 " \
+                                                    "0 -.03' mass='0'/></body></body></body>"
 #define BODY(trunk, more, right, right_axis, right_mass, right_range)                              \
   "<mujoco><compiler angle='radian'/><worldbody><body name='trunk' pos='0 0 1'>"                   \
-  "<freejoint name='root'/>" INERTIAL(trunk, "5", ".1 .1 .1")                                      \
-  "<body name='neck' pos='0 .001 .3'><joint name='neck' axis='0 0 1' limited='true' "              \
-  "range='-1 .8'/>" INERTIAL("0 0 0", "1", ".01 .01 .01") "</body>"                                \
-  LEG("l", ".01 .1 -.1", "1 0 0", "2", "-.5 1", more)                                              \
-  LEG("r", right, right_axis, right_mass, right_range, "") "</body></worldbody></mujoco>"
+  "<freejoint name='root'/>" INERTIAL(                                                             \
+      trunk, "5",                                                                                  \
+      ".1 .1 .1") "<body name='neck' pos='0 .001 .3'><joint name='neck' axis='0 0 1' "             \
+                  "limited='true' "                                                                \
+                  "range='-1 .8'/>" INERTIAL("0 0 0", "1", ".01 .01 .01") "</body>" LEG(           \
+                      "l", ".01 .1 -.1", "1 0 0", "2", "-.5 1", more)                              \
+                      LEG("r", right, right_axis, right_mass, right_range,                         \
+                          "") "</body></worldbody></mujoco>"
 #define SENSOR                                                                                     \
   "<body name='sensor' pos='.02 .01 0'><inertial pos='0 0 0' mass='.01' "                          \
   "diaginertia='1e-6 1e-6 1e-6'/></body>"
@@ -67,12 +73,17 @@ static void any_axis(void **state) {
   o.symmetrize = 1;
   import_case c = import_text(
       state,
-      "<mujoco><worldbody><body name='trunk' pos='.002 0 1'><freejoint name='root'/>"
-      INERTIAL(".001 0 0", "5", ".1 .1 .1")
-      "<body name='arm_l' pos='.2 .01 0'><joint name='arm_l' axis='0 0 1'/>"
-      INERTIAL("0 0 .1", "1", ".01 .02 .03") "</body>"
-      "<body name='arm_r' pos='-.203 .01 0' euler='0 0 180'><joint name='arm_r' axis='0 0 1'/>"
-      INERTIAL("0 0 .1", "1", ".01 .02 .0299") "</body></body></worldbody></mujoco>",
+      "<mujoco><worldbody><body name='trunk' pos='.002 0 1'><freejoint name='root'/>" INERTIAL(
+          ".001 0 0", "5",
+          ".1 .1 .1") "<body name='arm_l' pos='.2 .01 0'><joint name='arm_l' axis='0 0 "
+                      "1'/>" INERTIAL("0 0 .1", "1",
+                                      ".01 .02 .03") "</body>"
+                                                     "<body name='arm_r' pos='-.203 .01 0' "
+                                                     "euler='0 0 180'><joint name='arm_r' axis='0 "
+                                                     "0 1'/>" INERTIAL(
+                                                         "0 0 .1", "1",
+                                                         ".01 .02 .0299") "</body></body></"
+                                                                          "worldbody></mujoco>",
       &o);
   if (c.status) import_print(&c);
   assert_int_equal(c.status, AMBULO_OK);
@@ -98,15 +109,18 @@ static void an_even_body_stays(void **state) {
 /* Means, not the better side: of 0.1 kg m^2 and 0.12, 0.11. */
 static void means(void **state) {
   import_case c = made_even(
-      state, "<mujoco><worldbody><body name='trunk'><freejoint name='root'/>"
-             INERTIAL("0 0 0", "5", ".1 .1 .1")
-             "<body name='arm_l' pos='0 .2 0'><joint name='arm_l' axis='1 0 0'/>"
-             INERTIAL("0 .1 0", "1", ".1 .1 .02") "</body>"
-             "<body name='arm_r' pos='0 -.2 0'><joint name='arm_r' axis='1 0 0'/>"
-             INERTIAL("0 -.104 0", "1.04", ".12 .12 .02") "</body></body></worldbody></mujoco>");
+      state, "<mujoco><worldbody><body name='trunk'><freejoint name='root'/>" INERTIAL(
+                 "0 0 0", "5",
+                 ".1 .1 .1") "<body name='arm_l' pos='0 .2 0'><joint name='arm_l' axis='1 0 "
+                             "0'/>" INERTIAL("0 .1 0", "1",
+                                             ".1 .1 .02") "</body>"
+                                                          "<body name='arm_r' pos='0 -.2 0'><joint "
+                                                          "name='arm_r' axis='1 0 0'/>" INERTIAL(
+                                                              "0 -.104 0", "1.04",
+                                                              ".12 .12 .02") "</body></body></"
+                                                                             "worldbody></mujoco>");
   assert_int_equal(c.status, AMBULO_OK);
-  const ambulo_link *left =
-      ambulo_model_link(c.model, ambulo_model_find_link(c.model, "arm_l"));
+  const ambulo_link *left = ambulo_model_link(c.model, ambulo_model_find_link(c.model, "arm_l"));
   assert_close(left->mass, 1.02, 1e-12);
   assert_close(left->com[1], .102, 1e-12);
   assert_close(left->inertia[0], .11, 1e-12);

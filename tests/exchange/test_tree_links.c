@@ -10,9 +10,8 @@ enum { GROUND, BALL, SLIDE, TRUNK, PLATE, LEG, SHOE, COUNT };
 /* ground: a ball, and a trunk on a slider; on the trunk a plate, on that a leg with a shoe */
 static void build(ambulo__tree *tree, ambulo__tree_link links[COUNT]) {
   static const int parents[COUNT] = {-1, GROUND, GROUND, SLIDE, TRUNK, PLATE, LEG};
-  static const ambulo_joint_type types[COUNT] = {AMBULO_FIXED,     AMBULO_REVOLUTE,
-                                                 AMBULO_PRISMATIC, AMBULO_REVOLUTE,
-                                                 AMBULO_FIXED,     AMBULO_REVOLUTE,
+  static const ambulo_joint_type types[COUNT] = {AMBULO_FIXED,    AMBULO_REVOLUTE, AMBULO_PRISMATIC,
+                                                 AMBULO_REVOLUTE, AMBULO_FIXED,    AMBULO_REVOLUTE,
                                                  AMBULO_FIXED};
   static const double masses[COUNT] = {0, 1, 0, 5, 2, 1, 3};
   for (int i = 0; i < COUNT; i++) {
