@@ -27,8 +27,8 @@ static const double level = 0.02; /* m: no difference in height */
 static const double beside = 0.005; /* m: off the middle */
 
 typedef struct limb {
-  int top, link; /* the link it begins with; the foot */
-  int named, known, arm;
+  int top, link;                 /* the link it begins with; the foot */
+  int named, known, arm, shaped; /* named a foot; measured; an arm; some link has geometry */
   char side;
   double height, along, across; /* of the lowest point; of the foot's joint */
 } limb;
@@ -41,7 +41,7 @@ typedef struct body {
   int count;
 } body;
 
-static const char *const feet[] = {"foot", "sole", "calcn", NULL};
+static const char *const footed[] = {"foot", "sole", "calcn", NULL};
 static const char *const arms[] = {"hand",  "gripper",  "finger", "palm",
                                    "wrist", "shoulder", "elbow",  NULL};
 
@@ -115,7 +115,7 @@ static limb limb_of(body *b, int end) {
   limb l = {.link = end};
   for (int i = end; i >= 0 && i != b->trunk; i = joint_above(t, i)) {
     if (i != end && joints_below(t, i) > 1) break;
-    int known = 0, named = is_named(t, i, feet);
+    int known = 0, named = is_named(t, i, footed);
     double height = height_of(b, i, &known);
     double most = l.height + (known ? 1e-3 : -1e-3);
     if (named != l.named ? l.named : i != end && height > most) continue;
@@ -127,6 +127,8 @@ static limb limb_of(body *b, int end) {
   char side = side_of(t, l.link, l.link);
   l.top = top_of(b, l.link, side);
   l.side = side ? side : side_of(t, l.link, l.top);
+  for (int k = 0; k < t->solid_count; k++)
+    l.shaped |= ambulo__tree_leader(t, t->solids[k].link) == l.link;
   for (int i = l.link; !l.named && i >= 0 && i != b->trunk; i = joint_above(t, i))
     l.arm |= is_named(t, i, arms);
   double at[3];
@@ -157,6 +159,8 @@ static void find_limbs(body *b) {
     if (t->links[i].type != AMBULO_FIXED && i != b->trunk && joints_below(t, i) == 0 &&
         ambulo__tree_hangs_on(t, i, b->trunk))
       add_limb(b, limb_of(b, i));
+  if (b->count == 0 && b->trunk >= 0 && is_named(t, b->trunk, footed))
+    b->limbs[b->count++] = (limb){.link = b->trunk, .top = b->trunk, .named = 1, .known = 1};
 }
 
 static void keep(body *b, int (*wanted)(const limb *l, double most), double most) {
@@ -171,25 +175,31 @@ static int with_name(const limb *l, double most) {
   return l->named;
 }
 
-static int no_arm(const limb *l, double most) {
+static int may_be_a_leg(const limb *l, double most) {
   (void)most;
-  return !l->arm;
+  return !l->arm && l->shaped;
 }
 
 static int not_higher(const limb *l, double most) {
   return l->height <= most;
 }
 
-/* Whose limbs are legs; 0: none reaches lower than the trunk. */
-static int keep_legs(body *b) {
+/* Which limbs are legs. *legless: limbs have geometry, and none of them reaches lower than the
+ * trunk.
+ */
+static void keep_legs(body *b, int *legless) {
   double lowest = INFINITY, top = -INFINITY, at[3];
-  int named = 0, known = 0;
-  for (int i = 0; i < b->count; i++) named |= b->limbs[i].named;
+  int named = 0, known = 0, shaped = 0;
+  for (int i = 0; i < b->count; i++) {
+    named |= b->limbs[i].named;
+    shaped |= b->limbs[i].shaped;
+  }
+  *legless = 0;
   if (named) {
     keep(b, with_name, 0.0);
-    return 1;
+    return;
   }
-  keep(b, no_arm, 0.0);
+  keep(b, may_be_a_leg, 0.0);
   for (int i = 0; i < b->count; i++) lowest = fmin(lowest, b->limbs[i].height);
   for (int i = 0; i < b->tree->link_count; i++) {
     place_in(b, i, at);
@@ -198,7 +208,7 @@ static int keep_legs(body *b) {
   double trunk = b->trunk < 0 ? INFINITY : height_of(b, b->trunk, &known);
   if (!(lowest < trunk - level)) b->count = 0;
   keep(b, not_higher, lowest + reach * fmax(top - lowest, 0.0));
-  return b->count > 0;
+  *legless = shaped && b->count == 0;
 }
 
 /* ------------------------------------------------------------------------- names */
@@ -258,7 +268,7 @@ int ambulo__find_legs(ambulo__tree *tree, const double axes[3][3], ambulo__leg *
                       int *legless) {
   body b = {.tree = tree, .axes = axes};
   find_limbs(&b);
-  *legless = !keep_legs(&b) && b.trunk >= 0;
+  keep_legs(&b, legless);
   return name_legs(&b, legs, most);
 }
 

@@ -42,13 +42,13 @@ typedef struct ambulo_import_options {
   int heel_count;
   const char *const *toes;
   int toe_count;
-  /* Where the body goes, in the source's world: "x", "-x", "y", ... or "X,Y,Z". NULL: as left and
-   * right, or else heels and toes, say. */
-  const char *forward;
-  int symmetrize;     /* 1: left and right become exact images, where they nearly are */
   int unlock;         /* 1: coordinates that the source locks become coordinates all the same */
   int repair_inertia; /* 1: an inertia that no body can have is raised to the nearest possible */
   int overwrite;      /* 1: `output` may be a file that is there and not empty */
+  /* Where the body goes, in the source's world: "x", "-x", "y", ... or "X,Y,Z". NULL: as names of
+   * left and right say, else heels and toes. */
+  const char *forward;
+  int symmetrize; /* 1: left and right become exact images, where they nearly are */
 } ambulo_import_options;
 AMBULO_TOOL_DEFAULT(ambulo_import_options);
 
