@@ -11,12 +11,14 @@ import importlib.util
 import math
 import os
 import random
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
 
 BOUND = 1e-9  # of the largest number of what is compared
 POSES = 5
+ROOT = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
 
 
 def run(*words):
@@ -40,6 +42,16 @@ def coordinates(model):
         if "coordinate: {name: " in line:
             found.append((line.split("coordinate: {name: ")[1].split(",")[0].split("}")[0], angle))
     return found
+
+
+def root_axes(model):
+    """Axes of the six joints that an import gives a free URDF, in its order: those of a robot that
+    looks along another axis than x are turned."""
+    text = open(model, encoding="utf-8").read()
+    axes = {}
+    for axis, name in re.findall(r"axis: \[([^]]*)\],\s+coordinate: \{name: (base_\w+)", text):
+        axes[name] = [float(x) for x in axis.split(",")]
+    return axes
 
 
 def our_torques(ambulo, model, names, states, scratch):
@@ -85,7 +97,6 @@ def judge(label, ours, theirs):
 
 def pin_states(pin, model, names, held, states):
     """(q, v, a) of Pinocchio. The root is a composite of the six joints of the import."""
-    root = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
     for state in states:
         values = [dict(zip(names, part)) for part in state]
         q = pin.neutral(model)
@@ -93,7 +104,7 @@ def pin_states(pin, model, names, held, states):
         for j in range(1, model.njoints):
             joint, name = model.joints[j], model.names[j]
             if joint.nv == 6:
-                for i, n in enumerate(root):
+                for i, n in enumerate(ROOT):
                     q[joint.idx_q + i] = values[0][n]
                     v[joint.idx_v + i], a[joint.idx_v + i] = values[1][n], values[2][n]
                 continue
@@ -107,12 +118,11 @@ def pin_states(pin, model, names, held, states):
 
 
 def pin_columns(model, names):
-    root = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
     at = {}
     for j in range(1, model.njoints):
         joint, name = model.joints[j], model.names[j]
         for i in range(joint.nv):
-            at[root[i] if joint.nv == 6 else name] = joint.idx_v + i
+            at[ROOT[i] if joint.nv == 6 else name] = joint.idx_v + i
     return [at[n] for n in names]
 
 
@@ -122,11 +132,11 @@ def compare_urdf(ambulo, source, scratch, seed):
 
     target = convert(ambulo, source, os.path.join(scratch, "model.yaml"), "--repair-inertia")
     names = [n for n, _ in coordinates(target)]
-    root = pin.JointModelComposite()
-    for joint in (pin.JointModelPX(), pin.JointModelPY(), pin.JointModelPZ(), pin.JointModelRY(),
-                  pin.JointModelRX(), pin.JointModelRZ()):
-        root.addJoint(joint, pin.SE3.Identity())
+    root, axes = pin.JointModelComposite(), root_axes(target)
     free = "base_tx" in names
+    for name in ROOT if free else []:
+        kind = pin.JointModelPrismaticUnaligned if name in ROOT[:3] else pin.JointModelRevoluteUnaligned
+        root.addJoint(kind(np.array(axes[name])), pin.SE3.Identity())
     model = pin.buildModelFromUrdf(source, root) if free else pin.buildModelFromUrdf(source)
     model.gravity.linear[:] = [0, 0, -9.81]
     held = {}

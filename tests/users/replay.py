@@ -13,14 +13,18 @@ and torques times 1 m.
 
 import csv
 import math
+import os
 import re
 import sys
 
 import numpy as np
 import pinocchio as pin
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "exchange"))
+import peers_import
+
 BOUND = 1e-8
-ROOT = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
+ROOT = peers_import.ROOT
 
 
 def rows_of(motion):
@@ -29,13 +33,13 @@ def rows_of(motion):
             yield {name: float(value) for name, value in row.items()}
 
 
-def root_model(lift):
+def root_model(imported, lift):
     """The root alone, on the joints that `ambulo import` gives it."""
     model, parent = pin.Model(), 0
-    place = pin.SE3(np.eye(3), np.array(lift))
-    for joint, name in zip((pin.JointModelPX(), pin.JointModelPY(), pin.JointModelPZ(),
-                            pin.JointModelRY(), pin.JointModelRX(), pin.JointModelRZ()), ROOT):
-        parent = model.addJoint(parent, joint, place, name)
+    place, axes = pin.SE3(np.eye(3), np.array(lift)), peers_import.root_axes(imported)
+    for name in ROOT:
+        kind = pin.JointModelPrismaticUnaligned if name in ROOT[:3] else pin.JointModelRevoluteUnaligned
+        parent = model.addJoint(parent, kind(np.array(axes[name])), place, name)
         place = pin.SE3.Identity()
     return model
 
@@ -79,7 +83,7 @@ def main():
     assert len(feet) == 2, feet
     model = pin.buildModelFromUrdf(urdf, pin.JointModelFreeFlyer())
     model.gravity.linear[:] = [0, 0, -9.81]
-    data, root = model.createData(), root_model(lift)
+    data, root = model.createData(), root_model(imported, lift)
     weight = 9.81 * pin.computeTotalMass(model)
     worst_root = worst_joint = 0.0
     count = 0
