@@ -35,7 +35,8 @@ void ambulo__find_trunk_points(ambulo__tree *tree) {
   double up[3], top[3];
   if (link < 0) return;
   for (int i = 0; i < tree->point_count; i++)
-    if (strcmp(tree->points[i].name, "lumbar") == 0 || strcmp(tree->points[i].name, "head_top") == 0)
+    if (strcmp(tree->points[i].name, "lumbar") == 0 ||
+        strcmp(tree->points[i].name, "head_top") == 0)
       return;
   const double *com = tree->links[link].body.com;
   up_in(tree, link, up);

@@ -15,7 +15,8 @@ static void choose_speed(ambulo__walker *w, const ambulo_walk_options *o, int pe
   double usual = (person ? 0.42 : 0.2) * sqrt(w->gravity * w->leg);
   double step = (person ? 0.735 : 0.4) * w->leg;
   w->speed = usual;
-  if (isfinite(o->step_length)) w->speed = usual * (o->step_length / step) * (o->step_length / step);
+  if (isfinite(o->step_length))
+    w->speed = usual * (o->step_length / step) * (o->step_length / step);
   if (isfinite(o->speed)) w->speed = o->speed;
   w->step = isfinite(o->step_length) ? o->step_length : step * sqrt(w->speed / usual);
 }

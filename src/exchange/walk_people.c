@@ -30,8 +30,8 @@ static int find(const ambulo__walker *w, const char *name) {
 }
 
 int ambulo__walker_is_person(const ambulo__walker *w) {
-  static const char *const names[] = {"pelvis_tilt",   "hip_flexion_r", "hip_flexion_l",
-                                      "knee_angle_r",  "knee_angle_l",  "ankle_angle_r",
+  static const char *const names[] = {"pelvis_tilt",  "hip_flexion_r", "hip_flexion_l",
+                                      "knee_angle_r", "knee_angle_l",  "ankle_angle_r",
                                       "ankle_angle_l"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
     if (find(w, names[i]) < 0) return 0;
@@ -140,8 +140,8 @@ static void print_term(const fitted *f, const ambulo_term *term) {
 static void print_head(const fitted *f, double stature) {
   const ambulo__walker *w = f->walker;
   ambulo__text_append_format(f->text, "# A walk of %s, by 'ambulo new walk --for': ", w->file);
-  ambulo__text_append(f->text, w->symmetric ? "one step, followed by its mirror image.\n"
-                                            : "two steps.\n");
+  ambulo__text_append(f->text,
+                      w->symmetric ? "one step, followed by its mirror image.\n" : "two steps.\n");
   ambulo__text_append(f->text, "#\n# Weights are those of the shipped walk.yaml, fitted to people "
                                "and scaled to this body, ");
   ambulo__walk_number(f->text, w->mass);
@@ -152,8 +152,9 @@ static void print_head(const fitted *f, double stature) {
   ambulo__text_append(f->text, " m has. Strengths are a person's peak torques (N m: positive,\n"
                                "# then negative) over the fitted price. Coordinates that the "
                                "shipped body lacks rest in the\n# start pose.\n\n");
-  ambulo__text_append_format(f->text, "ambulo: 1\nkind: problem\nname: walk\nmodel: %s\n"
-                                      "angles: degrees\n\n",
+  ambulo__text_append_format(f->text,
+                             "ambulo: 1\nkind: problem\nname: walk\nmodel: %s\n"
+                             "angles: degrees\n\n",
                              w->file);
 }
 

@@ -17,7 +17,8 @@
 
 enum { STEP_INTERVALS = 64, STEP_PIECES = 10 };
 
-static void line_of(ambulo__text_buffer *text, const char *before, double value, const char *after) {
+static void line_of(ambulo__text_buffer *text, const char *before, double value,
+                    const char *after) {
   ambulo__text_append(text, before);
   ambulo__walk_number(text, value);
   ambulo__text_append(text, after);
@@ -81,7 +82,8 @@ static int is_hinge(const ambulo__walker *w, int c) {
 }
 
 /* sliders count in lengths of legs, where there are any but the root's (`all`: these too) */
-static void print_sliders(const ambulo__walker *w, double scale, int all, ambulo__text_buffer *text) {
+static void print_sliders(const ambulo__walker *w, double scale, int all,
+                          ambulo__text_buffer *text) {
   ambulo__walk_map map = {0};
   for (int c = 0; c < w->count; c++) {
     if (is_hinge(w, c) || (!all && w->part[c] == AMBULO__PART_ROOT)) continue;
@@ -133,7 +135,8 @@ static void print_objective(const ambulo__walker *w, ambulo__text_buffer *text) 
                 "  - term: posture\n    name: arms\n    weight: 5\n",
                 text);
   ambulo__text_append(text, "  # smooth motions\n  - term: acceleration\n");
-  line_of(text, "    weight: ", 0.002 * time_squared * time_squared, " # 0.002 (leg / gravity)^2\n");
+  line_of(text, "    weight: ", 0.002 * time_squared * time_squared,
+          " # 0.002 (leg / gravity)^2\n");
   print_sliders(w, 1.0 / w->leg, 1, text);
 }
 

@@ -22,7 +22,8 @@ void ambulo__walk_number(ambulo__text_buffer *text, double value) {
 
 ambulo__walk_map ambulo__walk_map_begin(ambulo__text_buffer *text, int indent, const char *key) {
   ambulo__text_append_format(text, "%*s%s: {", indent, "", key);
-  return (ambulo__walk_map){.text = text, .indent = indent, .column = indent + (int)strlen(key) + 3};
+  return (ambulo__walk_map){
+      .text = text, .indent = indent, .column = indent + (int)strlen(key) + 3};
 }
 
 void ambulo__walk_map_item(ambulo__walk_map *map, const char *name, const double *values,

@@ -83,8 +83,8 @@ static void find_parts(ambulo__walker *w) {
 static double length_of(const ambulo__walker *w, int side) {
   static const double origin[3] = {0, 0, 0};
   const double *forward = ambulo_model_forward(w->model), *up = ambulo_model_up(w->model);
-  int link = ambulo_model_point(w->model, ambulo_model_foot(w->model, w->foot[side])->heel_center)
-                 ->link;
+  int link =
+      ambulo_model_point(w->model, ambulo_model_foot(w->model, w->foot[side])->heel_center)->link;
   double sole[3], below[3], at[3], length = 0.0;
   int joints = 0;
   heel_of(w, side, sole);
@@ -142,8 +142,8 @@ static ambulo_status check_parts(const ambulo__walker *w, ambulo_diagnostics *di
                   "sliders and hinges between the world and the body",
                   roots);
   if (legs < 2)
-    return refuse(diagnostics, NULL, "the legs have too few joints (got %d); expected at least one each",
-                  legs);
+    return refuse(diagnostics, NULL,
+                  "the legs have too few joints (got %d); expected at least one each", legs);
   return AMBULO_OK;
 }
 

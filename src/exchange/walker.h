@@ -53,7 +53,8 @@ typedef struct ambulo__walk_map {
   int indent, column, items;
 } ambulo__walk_map;
 ambulo__walk_map ambulo__walk_map_begin(ambulo__text_buffer *text, int indent, const char *key);
-void ambulo__walk_map_item(ambulo__walk_map *map, const char *name, const double *values, int count);
+void ambulo__walk_map_item(ambulo__walk_map *map, const char *name, const double *values,
+                           int count);
 void ambulo__walk_map_end(ambulo__walk_map *map);
 
 /* ------------------------------------------------- walk_robot.c, walk_people.c */
