@@ -62,9 +62,6 @@ has() { # MODULE WHAT
 }
 optimal() { grep -q '"verdict": "optimal"' "$1/summary.json"; }
 between_too() { ! grep -q 'nodes only\|off between the nodes' "$1"; }
-problem_of() { # NAME FILE: the problem NAME.yaml that the tutorial writes
-  sed -n "/^cat >$1.yaml <</,/^END\$/p" "$top/docs/tutorial-import.md" | sed '1d; $d' >"$2"
-}
 imports() {
   "$AMBULO" import "$models/../tests/exchange/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
   echo "skipped: $1 (built without expat)"
@@ -92,7 +89,7 @@ opensim() {
   local deviation=0.0001 # m: scene.json has places to 0.1 mm
   [ "$osim" = "$here/walker.osim" ] || deviation=0.003 # knees whose splines are frozen
   check 'import' import_walker "$osim" walker.yaml
-  problem_of walker_walk walk.yaml
+  check 'a problem' "$AMBULO" new walk --for walker.yaml -o walk.yaml
   check 'check' "$AMBULO" check walk.yaml
   "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
   check 'an imported model walks, from zero' optimal walk
@@ -157,18 +154,15 @@ for folder in ("../../../../share", "../../cmeel.prefix/share"):
         raise SystemExit
 END
 }
-a_robot_walks() { # URDF PROBLEM
+a_robot_walks() { # URDF
   check "import $(basename "$1")" "$AMBULO" import "$1" -o biped.yaml --force
-  check 'check' "$AMBULO" check "$2"
-  # the grid that the solver asks for
-  "$AMBULO" solve "$2" -o trajectory --force >said 2>&1
-  local finer
-  finer=$(sed -n 's/.*--set \(time.intervals=[0-9]*\).*/\1/p' said | head -n 1)
-  [ -z "$finer" ] || "$AMBULO" solve "$2" -o trajectory --force --set "$finer" >said 2>&1
+  check 'a problem' "$AMBULO" new walk --for biped.yaml -o walk.yaml --force
+  check 'check' "$AMBULO" check walk.yaml
+  "$AMBULO" solve walk.yaml -o trajectory --force >said 2>&1
   check 'a robot walks, from zero' optimal trajectory
   check 'its page' "$AMBULO" report trajectory
   if between_too said; then
-    echo "$(basename "$1"): optimal, between the nodes too${finer:+, with $finer}"
+    echo "$(basename "$1"): optimal, between the nodes too"
   else
     echo "$(basename "$1"): optimal, but not between the nodes"
   fi
@@ -177,8 +171,7 @@ a_robot_walks() { # URDF PROBLEM
 }
 urdf() {
   imports 'a robot to a trajectory' || return
-  problem_of biped_walk walk.yaml
-  a_robot_walks "$here/biped.urdf" walk.yaml
+  a_robot_walks "$here/biped.urdf"
   check 'the small robot keeps to it between the nodes' between_too said
   local real
   real=$(humanoid)
@@ -186,10 +179,7 @@ urdf() {
     echo 'skipped: a real humanoid (no packages pin and example-robot-data, no AMBULO_URDF)'
     return
   fi
-  # its two sides differ by some grams: both are predicted
-  sed -e 's/steps: 1/steps: 2/; s/kind: mirrored/kind: periodic/; s/step_length: [^,]*, speed: [^,]*/step_length: 0.3, speed: 0.5/' \
-    -e 's/intervals: 14/intervals: 20/' walk.yaml >real_walk.yaml
-  a_robot_walks "$real" real_walk.yaml
+  a_robot_walks "$real"
 }
 
 # ----------------------------------------------------------------- tasks

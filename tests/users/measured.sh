@@ -40,8 +40,8 @@ measured() {
   check 'it is a walk: knees' alike knee_flexion 0.98
   # the model as published walks as fast, in steps as long
   check 'import' import_walker "$data/Rajagopal2016.osim" walker.yaml
-  problem_of walker_walk walk.yaml
-  "$AMBULO" solve walk.yaml --set gait.speed=1.243 --set gait.step_length=0.711 -o walk --samples 161 >said 2>&1
+  check 'a problem' "$AMBULO" new walk --for walker.yaml --speed 1.243 --step-length 0.711 -o walk.yaml
+  "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
   check 'its model walks, from zero' optimal walk
   check 'and between the nodes too' between_too said
   check 'the walk beside the motion' sh -c "'$AMBULO' compare walk cycles.csv --json >compared.json"
