@@ -121,7 +121,7 @@ static int parse_forward(const char *text, double forward[3]) {
 }
 
 /* Coordinates of a free body are about forward, so it is known before the links are read in
- * earnest: they are read once without a word. */
+ * earnest: they are read once in silence. */
 static ambulo_status settle_forward(const char *path, const ambulo_import_options *options,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, double forward[3]) {
