@@ -217,8 +217,9 @@ typedef struct ambulo__leg {
 /* The links that are feet; how many, 0: none. *legless: the body's lowest link is no limb's. */
 int ambulo__find_legs(ambulo__tree *tree, const double axes[3][3], ambulo__leg *legs, int most,
                       int *legless);
-/* Forward by what names say of left and right, else by the feet: changes tree->forward. */
-void ambulo__find_forward(ambulo__tree *tree);
+/* Forward by what names say of left and right, else by the feet: 1 if that changed tree->forward.
+ */
+int ambulo__find_forward(ambulo__tree *tree);
 /* Warns of feet that are not the lowest link of their side. */
 void ambulo__check_feet(ambulo__tree *tree, const double axes[3][3]);
 
