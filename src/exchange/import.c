@@ -122,7 +122,7 @@ static int parse_forward(const char *text, double forward[3]) {
 }
 
 /* Coordinates of a free body are about forward, so it is known before the links are read in
- * earnest: they are read once without a word. */
+ * earnest: they are read once in silence. */
 static ambulo_status settle_forward(const char *path, const ambulo_import_options *options,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, double forward[3]) {
@@ -138,8 +138,8 @@ static ambulo_status settle_forward(const char *path, const ambulo_import_option
   const char *given = options->forward;
   double across[3];
   read_links(&tree, path);
-  if (is_well(&tree) && !given) ambulo__find_forward(&tree);
-  if (is_well(&tree)) memcpy(forward, tree.forward, sizeof tree.forward);
+  if (is_well(&tree) && !given && ambulo__find_forward(&tree))
+    memcpy(forward, tree.forward, sizeof tree.forward);
   int good = !given || parse_forward(given, forward);
   if (good && given && is_well(&tree)) {
     ambulo__cross(tree.gravity, forward, across);

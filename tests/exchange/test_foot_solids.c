@@ -90,6 +90,21 @@ static void toes_but_no_shank(void **state) {
   import_shut(&c);
 }
 
+/* A shank that is asked for has its own geometry alone, not the foot's below it. */
+static void a_shank_by_hand(void **state) {
+  static const char *const feet[] = {"right=shank_r"};
+  ambulo_import_options o = ambulo_import_options_default();
+  o.feet = feet;
+  o.foot_count = 1;
+  import_case c = import_text(
+      state,
+      HEAD BALL("0", "-.1") FOOT(MASS "<geom type='box' size='.1 .05 .01' mass='0'/>") TAIL(""),
+      &o);
+  assert_int_equal(c.status, AMBULO_OK);
+  is_at(&c, "right_heel", 0, -.12);
+  import_shut(&c);
+}
+
 /* a box of 0.2 m by 0.08 m by 0.04 m and 0.6 kg, seen by its inertia alone */
 static void a_foot_by_its_inertia(void **state) {
   char text[1600];
@@ -115,6 +130,7 @@ int main(void) {
       cmocka_unit_test(a_tilted_sole),
       cmocka_unit_test(toes_but_no_shank),
       cmocka_unit_test(a_foot_by_its_inertia),
+      cmocka_unit_test(a_shank_by_hand),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

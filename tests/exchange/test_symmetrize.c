@@ -127,12 +127,31 @@ static void means(void **state) {
   import_shut(&c);
 }
 
+/* Joints that differ where the masses are images already: masses stay where they are. */
+static void joints_alone(void **state) {
+  import_case c = made_even(
+      state, "<mujoco><worldbody><body name='trunk'><freejoint name='root'/>" INERTIAL(
+                 "0 0 0", "5",
+                 ".1 .1 .1") "<body name='arm_l' pos='0 .5 0'><joint name='arm_l' "
+                             "axis='1 0 0'/>" INERTIAL(
+                                 "0 .1 0", "1",
+                                 ".1 .1 .1") "</body><body name='arm_r' pos='0 -.5 "
+                                             ".004'><joint name='arm_r' axis='1 0 "
+                                             "0'/>" INERTIAL("0 -.1 -.004", "1",
+                                                             ".1 .1 .1") "</body></body></"
+                                                                         "worldbody></mujoco>");
+  assert_int_equal(c.status, AMBULO_OK);
+  assert_int_equal(ambulo_model_check_mirror(c.model, NULL, c.list), AMBULO_OK);
+  const ambulo_link *left = ambulo_model_link(c.model, ambulo_model_find_link(c.model, "arm_l"));
+  assert_close(left->com[2], -.002, 1e-12);
+  import_shut(&c);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(becomes_its_image),
-      cmocka_unit_test(any_axis),
-      cmocka_unit_test(an_even_body_stays),
-      cmocka_unit_test(means),
+      cmocka_unit_test(becomes_its_image),  cmocka_unit_test(any_axis),
+      cmocka_unit_test(an_even_body_stays), cmocka_unit_test(means),
+      cmocka_unit_test(joints_alone),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
