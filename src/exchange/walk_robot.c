@@ -64,8 +64,11 @@ static void print_rows(const ambulo__walker *w, ambulo__text_buffer *text) {
   line_of(text, "  loading_rate: ", 3.2 * sqrt(w->gravity / l), " # body weights per second\n");
   line_of(text, "  friction: 0.5\n  free_moment: ", 0.03 * l, "\n  minimum_force: 0.2\n\n");
   line_of(text, "constraints:\n  contact_tolerance: ", 0.003 * l, "\n");
-  ambulo__text_append(text, "  orientation_tolerance: 0.01\n");
+  ambulo__text_append(text, w->rocks ? "  # legs of so few joints turn their feet with them\n"
+                                       "  orientation_tolerance: 0.5\n"
+                                     : "  orientation_tolerance: 0.01\n");
   line_of(text, "  clearance: {height: ", 0.03 * l, ", tip_from: 0.15");
+  if (w->rocks) ambulo__text_append(text, ", turn: 0.7");
   line_of(text, ", ceiling: ", 0.5 * l, "");
   line_of(text, ", outward: ", 0.09 * l, "");
   line_of(text, ", inward: ", 0.045 * l, "}\n  joint_limits: nodes\n");

@@ -6,7 +6,8 @@
  *
  *     sum_j |(f, n) . (p_j+1 - p_j)| + n . (p_last - s)                                     m
  *
- * which bent knees do not shorten and the offsets of a hip to the side do not lengthen. */
+ * which bent knees do not shorten and the offsets of a hip to the side do not lengthen. Where the
+ * hip is less than a third of the way along all joints above the sole, the body does not stand. */
 #include "exchange/walker.h"
 
 #include <math.h>
@@ -79,13 +80,13 @@ static void find_parts(ambulo__walker *w) {
                                   : AMBULO__PART_LEG;
 }
 
-/* The length of a leg: from the foot up, joint by joint. */
-static double length_of(const ambulo__walker *w, int side) {
+/* The length of a leg: from the foot up, joint by joint; *stands: the hip is above the sole. */
+static double length_of(const ambulo__walker *w, int side, int *stands) {
   static const double origin[3] = {0, 0, 0};
   const double *forward = ambulo_model_forward(w->model), *up = ambulo_model_up(w->model);
   int link =
       ambulo_model_point(w->model, ambulo_model_foot(w->model, w->foot[side])->heel_center)->link;
-  double sole[3], below[3], at[3], length = 0.0;
+  double sole[3], below[3] = {0, 0, 0}, at[3], length = 0.0, whole = 0.0;
   int joints = 0;
   heel_of(w, side, sole);
   for (; link >= 0; link = ambulo_model_link(w->model, link)->parent) {
@@ -93,10 +94,12 @@ static double length_of(const ambulo__walker *w, int side) {
     if (here->coordinate < 0 || w->part[here->coordinate] != AMBULO__PART_LEG) continue;
     place_of(w, here->parent, origin, at);
     for (int k = 0; k < 3; k++) below[k] = at[k] - (joints ? below[k] : sole[k]);
+    whole += sqrt(dot(below, below));
     length += joints ? hypot(dot(below, forward), dot(below, up)) : fmax(dot(below, up), 0.0);
     memcpy(below, at, sizeof below);
     joints++;
   }
+  *stands &= dot(below, up) - dot(sole, up) > whole / 3.0;
   return length;
 }
 
@@ -130,12 +133,15 @@ static ambulo_status choose_feet(ambulo__walker *w, ambulo_diagnostics *diagnost
   return AMBULO_OK;
 }
 
+static int legs_joints(const ambulo__walker *w) {
+  int legs = 0;
+  for (int c = 0; c < w->count; c++) legs += w->part[c] == AMBULO__PART_LEG;
+  return legs;
+}
+
 static ambulo_status check_parts(const ambulo__walker *w, ambulo_diagnostics *diagnostics) {
-  int roots = 0, legs = 0;
-  for (int c = 0; c < w->count; c++) {
-    roots += w->part[c] == AMBULO__PART_ROOT;
-    legs += w->part[c] == AMBULO__PART_LEG;
-  }
+  int roots = 0, legs = legs_joints(w);
+  for (int c = 0; c < w->count; c++) roots += w->part[c] == AMBULO__PART_ROOT;
   if (roots == 0)
     return refuse(diagnostics, "a URDF becomes free by 'ambulo import --root free'",
                   "the body is fixed to the world (got %d coordinates before its legs); expected "
@@ -193,13 +199,15 @@ static ambulo_status measure(ambulo__walker *w, ambulo_diagnostics *diagnostics)
   find_parts(w);
   status = check_parts(w, diagnostics);
   if (status) return status;
-  w->leg = 0.5 * (length_of(w, 0) + length_of(w, 1));
-  if (!(w->leg > 1e-3))
+  int stands = 1;
+  w->leg = 0.5 * (length_of(w, 0, &stands) + length_of(w, 1, &stands));
+  if (!stands || !(w->leg > 1e-3))
     return refuse(diagnostics, NULL,
-                  "the feet are not below the joints of the legs (got legs of %d mm); expected a "
-                  "body that stands in its start pose",
+                  "the body does not stand in its start pose (got legs of %d mm, along forward and "
+                  "up); expected hips above feet",
                   (int)(1000.0 * w->leg));
   w->planar = ambulo_model_foot(w->model, w->foot[0])->heel[1] < 0;
+  w->rocks = !w->planar && legs_joints(w) <= 8;
   w->width = fmax(w->width, half_width(w, 0) + half_width(w, 1));
   take_limits(w);
   return AMBULO_OK;

@@ -26,6 +26,7 @@ typedef struct ambulo__walker {
   double width;               /* m: between the feet */
   double mass, gravity;       /* kg, m/s^2 */
   int symmetric, planar;
+  int rocks; /* legs of at most four joints: they cannot keep their feet flat */
   int has_torque_limits, has_speed_limits;
   double speed, step; /* m/s, m: of the walk */
 } ambulo__walker;

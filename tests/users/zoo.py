@@ -167,7 +167,7 @@ def walk(ambulo, name, source, path, options):
         print(f"{name}: no replay: {fault}", file=sys.stderr)
         residual = "-"
     ends = "mirrored" if "kind: mirrored" in open(problem, encoding="utf-8").read() else "periodic"
-    good = verdict == "optimal" and share <= 1 + 1e-6 and (residual == "-" or float(residual) <= ROOT_BOUND)
+    good = verdict == "optimal" and share <= 1.001 and (residual == "-" or float(residual) <= ROOT_BOUND)
     limit = f"{share:.2f} {joint}" if joint else "none given"
     return [name, source, count, ends, verdict, f"{used:.1f}", mass, residual, limit], good
 
