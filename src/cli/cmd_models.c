@@ -221,8 +221,12 @@ static const char *model_from(const char *model, const char *output, char whole[
 static int walk_for(const ambulo__cli_input *input, const char *model, char **text) {
   char folder[PATH], whole[PATH];
   ambulo_walk_options options = ambulo_walk_options_default();
-  if (strcmp(input->arguments[0], "walk") != 0)
-    return ambulo__cli_usage_error("new", NULL, "--for is of 'walk' alone (got '%s')",
+  static const char *const gaits[] = {"walk", "trot", "bound"};
+  for (int i = 0; i < 3; i++)
+    if (strcmp(input->arguments[0], gaits[i]) == 0) options.gait = gaits[i];
+  if (!options.gait)
+    return ambulo__cli_usage_error("new", NULL,
+                                   "--for is of 'walk', 'trot' and 'bound' alone (got '%s')",
                                    input->arguments[0]);
   if (!ambulo__cli_number(input, "speed", 1e-3, 100.0, &options.speed) ||
       !ambulo__cli_number(input, "step-length", 1e-3, 100.0, &options.step_length))
@@ -273,7 +277,8 @@ static int write_new(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option new_options[] = {
     {"output", 'o', "FILE", "write it there (default: standard output)"},
-    {"for", 0, "MODEL.yaml", "with 'walk': a problem in which this model walks"},
+    {"for", 0, "MODEL.yaml", "with 'walk': a problem in which this model walks; of four legs also "
+                              "with\n'trot' and 'bound'"},
     {"speed", 0, "M/S", "with --for: its speed (default: by the length of the legs)"},
     {"step-length", 0, "M", "with --for: its step (default: by legs and speed)"},
     {"force", 0, NULL, "replace a file that is there"},
@@ -291,7 +296,7 @@ const ambulo__cli_command ambulo__cli_new = {
         "it\n"
         "names are found from anywhere; a file of that name beside it takes precedence. Comments\n"
         "call the file by the name of -o, or my.yaml.\n"
-        "With --for, the walk is made for a model of two legs, such as 'ambulo import' gives: its\n"
+        "With --for, the walk is made for a model of two or four legs, such as 'ambulo import' gives: its\n"
         "speed, steps, weights and rows follow from mass, legs and feet.",
     .example = "ambulo new\nambulo new walk > my.yaml\nambulo new walk --for robot.yaml -o "
                "robot_walk.yaml\nambulo new device -o exoskeleton.yaml",

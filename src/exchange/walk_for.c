@@ -29,15 +29,26 @@ static const char *last_name(const char *path) {
 static ambulo_status write_text(const char *path, const ambulo_walk_options *options,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 ambulo__text_buffer *text) {
+  const char *gait = options->gait ? options->gait : "walk";
   ambulo_model *model = NULL;
   ambulo__walker walker = {0};
   ambulo_status status = ambulo_model_load(path, NULL, allocator, diagnostics, &model);
   if (!status) status = ambulo__walker_measure(model, allocator, diagnostics, &walker);
+  if (!status && walker.feet == 2 && strcmp(gait, "walk") != 0)
+    status = ambulo__error(diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "a %s needs four feet (got 2); expected a walk", gait);
   if (!status) {
-    int person = options->shipped && ambulo__walker_is_person(&walker);
+    int person = walker.feet == 2 && options->shipped && ambulo__walker_is_person(&walker);
     walker.file = options->model ? options->model : last_name(path);
-    choose_speed(&walker, options, person);
-    if (person)
+    if (walker.feet == 4) {
+      walker.speed = isfinite(options->speed) ? options->speed : 0.0;
+      walker.step = isfinite(options->step_length) ? options->step_length : 0.0;
+    } else {
+      choose_speed(&walker, options, person);
+    }
+    if (walker.feet == 4)
+      ambulo__walk_of_quadruped(&walker, gait, text);
+    else if (person)
       status = ambulo__walk_of_person(&walker, options->shipped, diagnostics, text);
     else
       ambulo__walk_of_robot(&walker, text);
@@ -57,7 +68,8 @@ ambulo_status ambulo_walk_for(const char *model, const ambulo_walk_options *opti
                               char **text) {
   ambulo_walk_options own;
   if (!AMBULO__OWN(ambulo_walk_options, &own, options)) return AMBULO_E_ARGUMENT;
-  if (!model || !model[0] || !text || !is_sane(own.speed) || !is_sane(own.step_length))
+  if (!model || !model[0] || !text || !is_sane(own.speed) || !is_sane(own.step_length) ||
+      (own.gait && !ambulo__is_gait_of_four(own.gait)))
     return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__text_buffer buffer;

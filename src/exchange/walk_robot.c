@@ -85,7 +85,7 @@ static int is_hinge(const ambulo__walker *w, int c) {
 }
 
 /* sliders count in lengths of legs, where there are any but the root's (`all`: these too) */
-static void print_sliders(const ambulo__walker *w, double scale, int all,
+void ambulo__walk_sliders(const ambulo__walker *w, double scale, int all,
                           ambulo__text_buffer *text) {
   ambulo__walk_map map = {0};
   for (int c = 0; c < w->count; c++) {
@@ -101,7 +101,7 @@ static void print_sliders(const ambulo__walker *w, double scale, int all,
 }
 
 /* a posture of one part of the body at its start pose */
-static void print_posture(const ambulo__walker *w, ambulo__part_of_body part, const char *head,
+void ambulo__walk_posture(const ambulo__walker *w, ambulo__part_of_body part, const char *head,
                           ambulo__text_buffer *text) {
   static const double degree = 0.017453292519943295;
   ambulo__walk_map map = {0};
@@ -128,19 +128,19 @@ static void print_objective(const ambulo__walker *w, ambulo__text_buffer *text) 
   double torque = w->mass * w->gravity * w->leg, time_squared = w->leg / w->gravity;
   ambulo__text_append(text, "objective:\n  # small torques\n  - term: torque_squared\n");
   line_of(text, "    weight: ", 60.0 / (torque * torque), " # 60 / (weight times leg)^2\n");
-  print_sliders(w, w->leg, 0, text);
-  print_posture(w, AMBULO__PART_ROOT,
+  ambulo__walk_sliders(w, w->leg, 0, text);
+  ambulo__walk_posture(w, AMBULO__PART_ROOT,
                 "  # a trunk that stays as in the start pose\n  - term: posture\n    name: trunk\n"
                 "    weight: 20\n",
                 text);
-  print_posture(w, AMBULO__PART_REST,
+  ambulo__walk_posture(w, AMBULO__PART_REST,
                 "  # and so does what is above: arms hang as there, and may swing a little\n"
                 "  - term: posture\n    name: arms\n    weight: 5\n",
                 text);
   ambulo__text_append(text, "  # smooth motions\n  - term: acceleration\n");
   line_of(text, "    weight: ", 0.002 * time_squared * time_squared,
           " # 0.002 (leg / gravity)^2\n");
-  print_sliders(w, 1.0 / w->leg, 1, text);
+  ambulo__walk_sliders(w, 1.0 / w->leg, 1, text);
 }
 
 void ambulo__walk_of_robot(const ambulo__walker *walker, ambulo__text_buffer *text) {

@@ -72,12 +72,14 @@ static void count_path(const ambulo__walker *w, int side, int *passes) {
 
 static void find_parts(ambulo__walker *w) {
   int *passes = (int *)w->part; /* the same size, read before it is written */
-  count_path(w, 0, passes);
-  count_path(w, 1, passes);
-  for (int c = 0; c < w->count; c++)
-    w->part[c] = passes[c] == 3   ? AMBULO__PART_ROOT
-                 : passes[c] == 0 ? AMBULO__PART_REST
-                                  : AMBULO__PART_LEG;
+  int all = (1 << w->feet) - 1;
+  for (int side = 0; side < w->feet; side++) count_path(w, side, passes);
+  for (int c = 0; c < w->count; c++) {
+    int one = passes[c] != 0 && (passes[c] & (passes[c] - 1)) == 0; /* of one leg alone */
+    w->part[c] = passes[c] == all ? AMBULO__PART_ROOT
+                 : one            ? AMBULO__PART_LEG
+                                  : AMBULO__PART_REST;
+  }
 }
 
 /* The length of a leg: from the foot up, joint by joint; *stands: the hip is above the sole. */
@@ -110,14 +112,40 @@ static ambulo_status refuse(ambulo_diagnostics *diagnostics, const char *hint, c
   return ambulo__error(diagnostics, AMBULO_E_MODEL, ambulo__nowhere, hint, format, value);
 }
 
+/* four feet: the two in front, left and right, then the hind ones */
+static void choose_four(ambulo__walker *w) {
+  double along[4], aside[4];
+  for (int i = 0; i < 4; i++) {
+    double at[3];
+    w->foot[i] = i;
+    heel_of(w, i, at);
+    along[i] = dot(ambulo_model_forward(w->model), at);
+    aside[i] = dot(ambulo_model_left(w->model), at);
+  }
+  for (int pass = 0; pass < 3; pass++) {
+    for (int i = 0; i < 3; i++) {
+      int a = w->foot[i], b = w->foot[i + 1], pair = pass == 2;
+      int wrong = pair ? i != 1 && aside[a] < aside[b] : along[a] < along[b];
+      if (!wrong) continue;
+      w->foot[i] = b;
+      w->foot[i + 1] = a;
+    }
+  }
+}
+
 static ambulo_status choose_feet(ambulo__walker *w, ambulo_diagnostics *diagnostics) {
   int count = ambulo_model_foot_count(w->model);
   double at[2][3];
+  w->feet = count == 4 ? 4 : 2;
+  if (count == 4) {
+    choose_four(w);
+    return AMBULO_OK;
+  }
   if (count != 2)
     return refuse(diagnostics,
                   "'ambulo import' takes feet by --foot left=LINK, or by --heel and --toe",
-                  "a walk on two legs needs two feet (got %d); expected 'left' and 'right' under "
-                  "'feet' of the model",
+                  "a walk needs two feet or four (got %d); expected 'left' and 'right', or 'fl', "
+                  "'fr', 'hl' and 'hr', under 'feet' of the model",
                   count);
   w->foot[1] = 1;
   for (int i = 0; i < 2; i++) heel_of(w, i, at[i]);
@@ -200,7 +228,13 @@ static ambulo_status measure(ambulo__walker *w, ambulo_diagnostics *diagnostics)
   status = check_parts(w, diagnostics);
   if (status) return status;
   int stands = 1;
-  w->leg = 0.5 * (length_of(w, 0, &stands) + length_of(w, 1, &stands));
+  for (int side = 0; side < w->feet; side++) {
+    double at[3];
+    heel_of(w, side, at);
+    w->at[side][0] = dot(ambulo_model_forward(w->model), at);
+    w->at[side][1] = dot(ambulo_model_left(w->model), at);
+    w->leg += length_of(w, side, &stands) / w->feet;
+  }
   if (!stands || !(w->leg > 1e-3))
     return refuse(diagnostics, NULL,
                   "the body does not stand in its start pose (got legs of %d mm, along forward and "

@@ -21,7 +21,9 @@ typedef struct ambulo__walker {
   double *pose;               /* [count] the start pose, made symmetric where `symmetric` */
   ambulo__part_of_body *part; /* [count] */
   double *work;               /* [4 count] scratch */
-  int foot[2];                /* left, right: indices of the model's feet */
+  int feet, foot[4];          /* 2: left, right; 4: front left, front right, hind left, hind right:
+                                 indices of the model's feet */
+  double at[4][2];            /* m: those in the start pose, along forward and left */
   double leg;                 /* m: from the hip along the joints to the sole */
   double width;               /* m: between the feet */
   double mass, gravity;       /* kg, m/s^2 */
@@ -61,6 +63,21 @@ void ambulo__walk_map_end(ambulo__walk_map *map);
 /* ------------------------------------------------- walk_robot.c, walk_people.c */
 
 void ambulo__walk_of_robot(const ambulo__walker *walker, ambulo__text_buffer *text);
+
+/* A mapping of the coordinates of one part of the body to its start pose (walk_robot.c). */
+void ambulo__walk_posture(const ambulo__walker *walker, ambulo__part_of_body part, const char *head,
+                          ambulo__text_buffer *text);
+/* Of sliders that are not the root's (`all`: of these too), in lengths of legs. */
+void ambulo__walk_sliders(const ambulo__walker *walker, double scale, int all,
+                          ambulo__text_buffer *text);
+
+/* ------------------------------------------------------------- walk_quadruped.c */
+
+/* "walk", "trot", "bound"; 0: no gait of four legs. */
+int ambulo__is_gait_of_four(const char *name);
+/* At walker->speed and with strides of walker->step, 0 of either: as the gait and the legs have it. */
+void ambulo__walk_of_quadruped(const ambulo__walker *walker, const char *gait,
+                               ambulo__text_buffer *text);
 
 /* Whether coordinates and links have the names of OpenSim's models of people. */
 int ambulo__walker_is_person(const ambulo__walker *walker);

@@ -68,18 +68,19 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_import_model(const char *path, 
 typedef struct ambulo_walk_options {
   size_t size;         /* set by ambulo_walk_options_default() */
   double speed;        /* m/s; AMBULO_OFF: by the legs, or by the step */
-  double step_length;  /* m; AMBULO_OFF: by the legs, or by the speed */
+  double step_length;  /* m; AMBULO_OFF: by the legs, or by the speed. On four feet: of a stride */
   const char *model;   /* how the problem names the model; NULL: by its file's name */
   const char *shipped; /* folder of the shipped problems: models of people, by the names of their
                           coordinates, take the weights of walk.yaml or walk_whole_body.yaml there;
                           NULL: they walk as robots do */
+  const char *gait;    /* of a body with four feet: "walk", "trot" or "bound"; NULL: "walk" */
 } ambulo_walk_options;
 AMBULO_TOOL_DEFAULT(ambulo_walk_options);
 
 /* The text of a problem file, with comments, in which the body of a model file walks: one step and
- * its mirror image, or two where the sides differ. Its numbers follow from the mass, the legs and
+ * its mirror image, or two where the sides differ; on four feet half a stride, or a whole one. Its numbers follow from the mass, the legs and
  * the feet. To be freed with ambulo_text_free. `options` (NULL: defaults), `allocator` and
- * `diagnostics` may be NULL. Errors: as ambulo_model_load; E_MODEL too: no two feet, no legs, fixed
+ * `diagnostics` may be NULL. Errors: as ambulo_model_load; E_MODEL too: not two or four feet, no legs, fixed
  * to the world. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_walk_for(const char *model,
                                                           const ambulo_walk_options *options,
