@@ -83,7 +83,9 @@ typedef struct ambulo_point {
 } ambulo_point;
 
 /* A foot: which points touch the ground. Points are indices. A planar foot has
- * one heel and one toe point; a spatial one two of each. */
+ * one heel and one toe point; a spatial one two of each. A point foot, as of a quadruped, has one
+ * point at all: heel[0], toe[0], heel_center and toe_center are the same, without a second corner,
+ * tip or arcs. It stands flat (AMBULO_CONTACT_FLAT), and its link may turn about it freely. */
 typedef struct ambulo_foot {
   const char *name; /* "left", "right" */
   int heel[2];      /* corner points at the heel; [1] = -1 if there is only one */

@@ -124,6 +124,12 @@ static void check_point(ambulo__checker *c, int index) {
   }
 }
 
+int ambulo__foot_is_point(const ambulo_foot *foot) {
+  int point = foot->heel_center;
+  return foot->toe_center == point && foot->heel[0] == point && foot->toe[0] == point &&
+         foot->heel[1] == -1 && foot->toe[1] == -1 && !foot->has_tip && !foot->has_arcs;
+}
+
 static int is_point(const ambulo_model_definition *d, int index) {
   return index >= 0 && index < d->point_count;
 }
@@ -148,11 +154,12 @@ static void check_foot(ambulo__checker *c, int index) {
                               "foot '%s' has two corners at one end and one at the other; "
                               "expected as many at the heel as at the toe",
                               name);
-  } else if (foot->heel[0] == foot->heel[1] || foot->toe[0] == foot->toe[1] ||
-             foot->heel[0] == foot->toe[0] || foot->heel_center == foot->toe_center) {
+  } else if (!ambulo__foot_is_point(foot) &&
+             (foot->heel[0] == foot->heel[1] || foot->toe[0] == foot->toe[1] ||
+              foot->heel[0] == foot->toe[0] || foot->heel_center == foot->toe_center)) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
                               "foot '%s' uses one point twice; expected different corners, and "
-                              "different centres of heel and toe",
+                              "different centres of heel and toe, or one point for all four",
                               name);
   }
   int mirror = foot->mirror < 0 ? index : foot->mirror;

@@ -81,6 +81,8 @@ double ambulo__model_load_mass(const ambulo_model *model);
 /* The body weight m |g|, N: what forces are measured by. */
 double ambulo__model_weight(const ambulo_model *model);
 
+/* 1: one point for all of it (ambulo/model.h). */
+int ambulo__foot_is_point(const ambulo_foot *foot);
 /* Index of a patch by its name; -1: none. */
 int ambulo__find_patch(const ambulo_model *model, const char *name);
 

@@ -165,6 +165,13 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   return status ? status : ambulo__strength_check(d, &p->allocator, diagnostics);
 }
 
+/* l of the contacts: where all are point feet, which turn nothing, no more than their region. With
+ * the reach of a sole their moments would carry a trot, and rows of pressure refuse it. */
+static double moment_arm(const ambulo_problem_definition *d, const ambulo__slots *slots) {
+  double arm = d->ground_reaction.moment_arm;
+  return slots->all_points ? fmin(arm, AMBULO__POINT_REGION) : arm;
+}
+
 static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
@@ -178,8 +185,8 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
                   ambulo_model_name(p->model), slots.count, AMBULO__MOST_SLOTS);
   p->channels.feet = ambulo_model_foot_count(p->model);
   p->channels.slots = slots.count;
-  return ambulo__plan_create_contacts(p->model, slots.link, slots.count, r->moment_arm, r->slant,
-                                      &p->allocator, &p->plan);
+  return ambulo__plan_create_contacts(p->model, slots.link, slots.count, moment_arm(d, &slots),
+                                      r->slant, &p->allocator, &p->plan);
 }
 
 static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
