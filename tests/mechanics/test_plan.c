@@ -229,7 +229,7 @@ static void root_sliders_are_rows_of_the_force(void **state) {
 static void rooted_trees_are_of_all_kinds(void **state) {
   (void)state;
   static kernel_case c;
-  int followers[3][2] = {{0}}, oblique = 0, light = 0, behind = 0;
+  int followers[3][2] = {{0}}, driven = 0, oblique = 0, light = 0, behind = 0;
   for (int number = rooted_cases; number < case_count; number++) {
     case_open(&c, number);
     for (int k = 0; k < c.d; k++) {
@@ -240,6 +240,8 @@ static void rooted_trees_are_of_all_kinds(void **state) {
       if (joint->revolute || !joint->still) continue;
       if (part[0].row != k) {
         followers[part[0].row - c.d - 3][part[0].factor < 0]++;
+      } else if (joint->driven && !joint->turned && parent < 0) {
+        driven++;
       } else if (joint->turned) {
         oblique++;
       } else if (c.plan->frames[k + 1].subtree_mass < (1 - 1e-9) * c.plan->frames[0].subtree_mass) {
@@ -251,7 +253,7 @@ static void rooted_trees_are_of_all_kinds(void **state) {
     case_close(&c);
   }
   for (int i = 0; i < 6; i++) assert_true(followers[i / 2][i % 2] > 4);
-  assert_true(oblique > 5 && light > 5 && behind > 1);
+  assert_true(driven > 5 && oblique > 5 && light > 5 && behind > 1);
 }
 
 static void failed_allocations_unwind(void **state) {
