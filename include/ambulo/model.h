@@ -49,7 +49,18 @@ typedef struct ambulo_coordinate {
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
   double default_value;   /* its value in the start pose, where a solve begins unless the caller
                              gives a start: rad or m; 0 */
+  /* What its drive adds to tau, and to nothing else:
+   *   armature qdd + damping qd + friction qd / sqrt(qd^2 + v^2),
+   * v = AMBULO_FRICTION_RATE of a revolute, AMBULO_FRICTION_SPEED of a prismatic one. Each is
+   * finite and not negative, and 0 where nothing but the ground moves a whole body. */
+  double armature; /* inertia of the rotor times the gear ratio squared, kg m^2 or kg; 0 */
+  double damping;  /* N m s/rad or N s/m; 0 */
+  double friction; /* dry friction, N m or N; 0 */
 } ambulo_coordinate;
+
+/* Speed at which dry friction has 0.71 of its size; at ten times that, 0.995. */
+#define AMBULO_FRICTION_RATE 0.1   /* rad/s */
+#define AMBULO_FRICTION_SPEED 0.01 /* m/s */
 
 /* Which limit of a coordinate, and the interval that it leaves. */
 typedef enum ambulo_limited {
@@ -209,10 +220,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
 /* Checks that the body is its own mirror image, coordinate by coordinate as `mirror` and
  * `mirror_sign` say. The mirror plane contains the world's origin, up and forward.
  *
- * Compared at q = 0: the tree of joints, their axes, the mass, centre of mass and inertia that each
- * joint carries, and the points of the feet. The tolerance is 1e-6 of their size (lengths: of the
- * body's; directions: rad). Not compared: points that no foot uses, patches, capsules, limits,
- * `actuated`, and the handedness of link frames.
+ * Compared at q = 0: the tree of joints, their axes and drives, the mass, centre of mass and
+ * inertia that each joint carries, and the points of the feet. The tolerance is 1e-6 of their size
+ * (lengths: of the body's; directions: rad). Not compared: points that no foot uses, patches,
+ * capsules, limits, `actuated`, and the handedness of link frames.
  *
  * Each difference is a message with both names and both numbers. `allocator` and `diagnostics` may
  * be NULL. Errors: E_MODEL (not symmetric), E_ARGUMENT, E_MEMORY. */

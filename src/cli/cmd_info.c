@@ -55,6 +55,19 @@ static void print_coordinates(const ambulo_model *model) {
   }
 }
 
+/* of those that have some of it */
+static void print_drives(const ambulo_model *model) {
+  int printed = 0;
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
+    if (c->armature == 0.0 && c->damping == 0.0 && c->friction == 0.0) continue;
+    if (!printed++)
+      printf("\ndrives (kg m^2 or kg; N m s/rad or N s/m; N m or N)\n  %-3s %-22s %10s %10s %10s\n",
+             "", "coordinate", "armature", "damping", "friction");
+    printf("  %-3d %-22s %10.4g %10.4g %10.4g\n", i, c->name, c->armature, c->damping, c->friction);
+  }
+}
+
 static const char *point_name(const ambulo_model *model, int index) {
   const ambulo_point *point = ambulo_model_point(model, index);
   return point ? point->name : "-";
@@ -133,6 +146,7 @@ static void print_model(const ambulo_model *model, const char *symmetry) {
   printf("symmetry     %s\n", symmetry);
   print_links(model);
   print_coordinates(model);
+  print_drives(model);
   print_points(model);
   print_patches(model);
   print_capsules(model);

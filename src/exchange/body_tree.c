@@ -205,6 +205,14 @@ void ambulo__tree_gravity(ambulo__tree *tree) {
   ambulo__tree_note(tree, NULL, "gravity is along x in the source: forward is y here");
 }
 
+static void check_drive(ambulo__tree *tree, const ambulo__tree_link *link, const char *what,
+                        double value) {
+  if (value >= 0.0 && value <= LARGEST_LIMIT) return;
+  ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
+                    "%s of '%.64s' is out of range (got %s); expected 0 to 1e9", what,
+                    link->coordinate.name, ambulo__number_text(value).text);
+}
+
 void ambulo__tree_check(ambulo__tree *tree) {
   for (int i = 0; i < tree->link_count; i++) {
     ambulo__tree_link *link = &tree->links[i];
@@ -221,6 +229,9 @@ void ambulo__tree_check(ambulo__tree *tree) {
     drop_limits(link->coordinate.range);
     drop_limits(link->coordinate.speed);
     drop_limits(link->coordinate.torque);
+    check_drive(tree, link, "armature", link->coordinate.armature);
+    check_drive(tree, link, "damping", link->coordinate.damping);
+    check_drive(tree, link, "friction", link->coordinate.friction);
   }
 }
 

@@ -223,6 +223,19 @@ static void warn_limits(const job *j) {
                     uneven, first);
 }
 
+/* a URDF has damping and friction, but no rotors; an OpenSim model none of them */
+static void warn_drives(const job *j) {
+  int is_urdf = j->options->format == AMBULO_EXPORT_URDF, lost = 0;
+  for (int i = 0; i < j->model->coordinate_count; i++) {
+    const ambulo_coordinate *c = &j->model->coordinates[i];
+    lost += c->armature != 0.0 || (!is_urdf && (c->damping != 0.0 || c->friction != 0.0));
+  }
+  if (lost)
+    ambulo__warning(j->diagnostics, ambulo__nowhere, NULL, "%s of %d coordinates %s left out",
+                    is_urdf ? "armature" : "armature, damping and friction", lost,
+                    is_urdf ? "is" : "are");
+}
+
 /* ------------------------------------------------------------------------- writing */
 
 static ambulo_status write_single(job *j) {
@@ -277,6 +290,7 @@ static ambulo_status write_format(job *j) {
   switch (j->options->format) {
   case AMBULO_EXPORT_OPENSIM:
     status = ambulo__bodies_merged(j->model, j->allocator, &j->bodies);
+    warn_drives(j);
     if (!status && j->motion) status = add_loads(j);
     if (status) return status;
     if (j->motion) return write_folder(j);
@@ -287,6 +301,7 @@ static ambulo_status write_format(job *j) {
     if (status) return status;
     warn_gravity(j);
     warn_limits(j);
+    warn_drives(j);
     ambulo__export_urdf(&j->bodies, &j->text);
     return write_single(j);
   case AMBULO_EXPORT_NPZ:

@@ -2,7 +2,7 @@
  *
  * Bodies with their joints, masses and geoms (mjcf_bodies.c), default classes, included files,
  * torque limits from actuators. Angles are degrees unless the compiler says radian; z is up.
- * Tendons, equalities, springs and dampers of joints, armature and contacts are not carried over.
+ * Tendons, equalities, springs of joints and contacts are not carried over.
  */
 #include "exchange/mjcf.h"
 
@@ -212,12 +212,21 @@ static void note_leftovers(ambulo__mjcf *m) {
       for (const ambulo__xml_node *n = set->first; n; n = n->next) count++;
     if (count) ambulo__tree_note(m->tree, NULL, "%d of <%s> are left out", count, sets[i]);
   }
-  if (m->armatures)
-    ambulo__tree_note(m->tree, NULL, "armature of %d joints is left out: rotors have no inertia",
-                      m->armatures);
-  if (m->springs)
-    ambulo__tree_note(m->tree, NULL, "stiffness, damping and friction of %d joints are left out",
-                      m->springs);
+  const struct {
+    int count;
+    const char *what, *done;
+  } joints[] = {
+      {m->springs, "stiffness", "joints is left out"},
+      {m->bent, "damping that grows faster than the speed", "joints is left out"},
+      {m->driven_roots, "armature, damping and friction",
+       "joints of the free root are left out: no drive is there to have them"},
+      {m->driven_balls, "armature, damping and friction",
+       "ball joints are those of each of their three hinges: MuJoCo's at 0"},
+  };
+  for (int i = 0; i < 4; i++)
+    if (joints[i].count)
+      ambulo__tree_note(m->tree, NULL, "%s of %d %s", joints[i].what, joints[i].count,
+                        joints[i].done);
 }
 
 static void read_option(ambulo__tree *tree, const ambulo__xml_node *option) {

@@ -78,6 +78,16 @@ static void print_limits(ambulo__text_buffer *text, const char *key, const doubl
   ambulo__text_append(text, "]");
 }
 
+static void print_drive(const ambulo_coordinate *c, ambulo__text_buffer *text) {
+  static const char *const keys[] = {"armature", "damping", "friction"};
+  const double values[] = {c->armature, c->damping, c->friction};
+  for (int i = 0; i < 3; i++) {
+    if (values[i] == 0.0) continue;
+    ambulo__text_append_format(text, ", %s: ", keys[i]);
+    ambulo__text_append_number(text, values[i]);
+  }
+}
+
 static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *link,
                              ambulo__text_buffer *text) {
   const ambulo_coordinate *c = &link->coordinate;
@@ -90,6 +100,7 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
   }
   print_limits(text, "speed", c->speed, unit);
   print_limits(text, "torque", c->torque, 1.0);
+  print_drive(c, text);
   if (!c->actuated) ambulo__text_append(text, ", actuated: false");
   if (link->has_mirror) {
     const char *partner = tree->links[c->mirror].coordinate.name;

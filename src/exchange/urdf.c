@@ -129,8 +129,12 @@ static int one_coordinate(ambulo__chain *chain, int type, const ambulo__xml_node
   int link = ambulo__chain_joint(chain, type == PRISMATIC ? AMBULO_PRISMATIC : AMBULO_REVOLUTE,
                                  axis, name);
   if (link < 0) return 0;
+  ambulo_coordinate *c = &tree->links[link].coordinate;
+  const ambulo__xml_node *dynamics = ambulo__xml_child(joint, "dynamics");
   read_limits(tree, joint, type != CONTINUOUS, link);
-  tree->links[link].coordinate.default_value = ambulo__tree_pose(tree, name, 0.0);
+  c->default_value = ambulo__tree_pose(tree, name, 0.0);
+  (void)ambulo__xml_vector(tree->xml, dynamics, "damping", 1, &c->damping);
+  (void)ambulo__xml_vector(tree->xml, dynamics, "friction", 1, &c->friction);
   return 1;
 }
 
@@ -228,17 +232,14 @@ static void read_link(ambulo__tree *tree, int link, const ambulo__xml_node *node
 static void note_leftovers(ambulo__tree *tree, const ambulo__xml_node *root) {
   int damped = 0, unlimited = 0;
   AMBULO__XML_EACH (n, root, "joint") {
-    const ambulo__xml_node *dynamics = ambulo__xml_child(n, "dynamics");
-    double damping = 0.0, friction = 0.0;
-    (void)ambulo__xml_vector(tree->xml, dynamics, "damping", 1, &damping);
-    (void)ambulo__xml_vector(tree->xml, dynamics, "friction", 1, &friction);
-    damped += damping != 0.0 || friction != 0.0;
     const char *type = ambulo__xml_attribute(n, "type");
+    int several = type && (strcmp(type, "planar") == 0 || strcmp(type, "floating") == 0);
+    damped += several && ambulo__xml_child(n, "dynamics");
     int limited = type && (strcmp(type, "revolute") == 0 || strcmp(type, "prismatic") == 0);
     unlimited += limited && !ambulo__xml_child(n, "limit") && !ambulo__xml_child(n, "mimic");
   }
   if (damped)
-    ambulo__tree_note(tree, root, "damping and friction of %d joints are left out", damped);
+    ambulo__tree_note(tree, root, "<dynamics> of %d planar or floating joints is left out", damped);
   if (unlimited)
     ambulo__tree_note(tree, root, "%d joints have no <limit>: their coordinates have no range",
                       unlimited);

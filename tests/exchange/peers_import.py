@@ -16,6 +16,7 @@ import sys
 import xml.etree.ElementTree as ET
 
 BOUND = 1e-9  # of the largest number of what is compared
+MASS_BOUND = 1e-12  # of the largest entry of a mass matrix, that of MuJoCo with armature
 POSES = 5
 
 
@@ -137,21 +138,29 @@ def compare_urdf(ambulo, source, scratch, seed):
     data = model.createData()
     states = random_states(names, seed)
     columns = pin_columns(model, names)
+    # the speed by which dry friction is smoothed
+    smooth = np.full(model.nv, 0.1)
+    for j in range(1, model.njoints):
+        if model.joints[j].nv == 1 and model.joints[j].shortname().startswith("JointModelP"):
+            smooth[model.joints[j].idx_v] = 0.01
     theirs = []
     for q, v, a in pin_states(pin, model, names, held, states):
-        theirs.append(pin.rnea(model, data, q, np.array(v), np.array(a))[columns].tolist())
+        v = np.array(v)
+        tau = pin.rnea(model, data, q, v, np.array(a))
+        tau += model.damping * v + model.friction * v / np.hypot(v, smooth)
+        theirs.append(tau[columns].tolist())
     return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
 
 
 # ------------------------------------------------------------------- MuJoCo
 
 
-def mujoco_replace(mujoco, body, joint, new):
+def mujoco_replace(mujoco, body, joint, new, drive):
     """A joint of several coordinates by joints of one: (name, slides, axis in the body's frame)."""
     pos = list(joint.pos)
     for name, slides, axis in new:
         kind = mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE
-        body.add_joint(name=name, type=kind, axis=axis, pos=pos, limited=0)
+        body.add_joint(name=name, type=kind, axis=axis, pos=pos, limited=0, **drive)
 
 
 def mujoco_model(mujoco, np, source):
@@ -160,7 +169,7 @@ def mujoco_model(mujoco, np, source):
     for part in (spec.actuators, spec.tendons, spec.equalities, spec.sensors, spec.keys, spec.excludes):
         for item in list(part):
             spec.delete(item)
-    unit = np.eye(3)
+    unit, none = np.eye(3), {"armature": 0, "damping": [0, 0, 0], "frictionloss": 0}
     for body in spec.bodies:
         for joint in list(body.joints):
             name = joint.name
@@ -170,13 +179,31 @@ def mujoco_model(mujoco, np, source):
                 world = turn.reshape(3, 3)  # rows: the world's axes in the body's
                 parts = [("_tx", 1, 0), ("_ty", 1, 1), ("_tz", 1, 2), ("_tilt", 0, 1), ("_list", 0, 0),
                          ("_rotation", 0, 2)]
-                mujoco_replace(mujoco, body, joint, [(name + n, s, world[k]) for n, s, k in parts])
+                mujoco_replace(mujoco, body, joint, [(name + n, s, world[k]) for n, s, k in parts], none)
                 spec.delete(joint)
             elif joint.type == mujoco.mjtJoint.mjJNT_BALL:
                 parts = zip("xyz", unit)
-                mujoco_replace(mujoco, body, joint, [(f"{name}_{n}", 0, axis) for n, axis in parts])
+                drive = {key: getattr(joint, key) for key in none}
+                mujoco_replace(mujoco, body, joint, [(f"{name}_{n}", 0, axis) for n, axis in parts], drive)
                 spec.delete(joint)
     return spec.compile()
+
+
+def mujoco_friction(mujoco, np, model):
+    """Dry friction by the speed of each dof, smoothed as model.h says."""
+    slides = np.array([model.jnt_type[j] == mujoco.mjtJoint.mjJNT_SLIDE for j in model.dof_jntid])
+    return lambda v: model.dof_frictionloss * v / np.hypot(v, np.where(slides, 0.01, 0.1))
+
+
+def mass_error(states, ours, theirs):
+    """Largest difference of the entries of mass matrices, of the largest entry."""
+    d, worst = len(ours[0]), 0.0
+    for first in range(POSES, len(states), d + 1):
+        m = [[[row[k] - rows[first][k] for k in range(d)] for row in rows[first + 1:first + 1 + d]]
+             for rows in (ours, theirs)]
+        size = max(abs(x) for row in m[1] for x in row)
+        worst = max(worst, max(abs(a - b) for r, s in zip(*m) for a, b in zip(r, s)) / size)
+    return worst
 
 
 def compare_mjcf(ambulo, source, scratch, seed):
@@ -186,7 +213,8 @@ def compare_mjcf(ambulo, source, scratch, seed):
     target = convert(ambulo, source, os.path.join(scratch, "model.yaml"))
     names = [n for n, _ in coordinates(target)]
     model = mujoco_model(mujoco, np, source)
-    model.dof_armature[:] = 0
+    model.jnt_stiffness[:] = 0
+    friction = mujoco_friction(mujoco, np, model)
     model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
     if not model.opt.gravity.any():
         model.opt.gravity[:] = [0, 0, -9.81]  # as the import says
@@ -201,10 +229,16 @@ def compare_mjcf(ambulo, source, scratch, seed):
             data.qvel[model.jnt_dofadr[j]], data.qacc[model.jnt_dofadr[j]] = v[k], a[k]
         mujoco.mj_fwdPosition(model, data)
         mujoco.mj_fwdVelocity(model, data)
-        tau = np.zeros(model.nv)
-        mujoco.mj_rne(model, data, 1, tau)
+        mass = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, data, mass)  # with armature
+        tau = mass @ data.qacc + data.qfrc_bias - data.qfrc_damper + friction(data.qvel)
         theirs.append([float(tau[model.jnt_dofadr[j]]) for j in at])
-    return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
+    ours = our_torques(ambulo, target, names, states, scratch)
+    good = judge(os.path.basename(source), ours, theirs)
+    error = mass_error(states, ours, theirs)
+    if error > MASS_BOUND:
+        print(f"FAILED   {os.path.basename(source)}: mass matrix, {error:.1e} of its largest entry")
+    return good and error <= MASS_BOUND
 
 
 def package_files(package, *paths):

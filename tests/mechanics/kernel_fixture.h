@@ -1,7 +1,8 @@
 /* tests/mechanics/kernel_fixture.h - random trees, states and the reference's derivatives.
  *
  * A case is a tree, its plan, and one block of states in one of the pose regimes; from number
- * rooted_cases on, the tree stands on a chain of sliders along (mostly) world axes. The reference
+ * rooted_cases on, the tree stands on a chain of sliders along (mostly) world axes. One in three
+ * has drives. The reference
  * gives the outputs of any lane, and their Jacobians by complex steps of 1e-40, which are as
  * accurate as the values themselves. Differences are relative to the largest entry of a group
  * (tau and wrench; points). */
@@ -55,6 +56,7 @@ static inline void case_open(kernel_case *c, int number) {
     random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 20);
     random_tree_put_on_root(&c->tree, 31 * (uint64_t)number + 2);
   }
+  if (number % 3 == 0) random_tree_drive(&c->tree, 7 * (uint64_t)number + 3);
   c->model = NULL;
   c->plan = NULL;
   assert_int_equal(ambulo_model_create(&c->tree.definition, NULL, NULL, &c->model), AMBULO_OK);

@@ -152,6 +152,19 @@ static inline void random_tree_make(random_tree *tree, uint64_t seed, int coordi
   tree->definition.gravity[2] = random_between(&source, -2, 2);
 }
 
+/* Gives about half of the coordinates a drive, with some or all of its parts. */
+static inline void random_tree_drive(random_tree *tree, uint64_t seed) {
+  random_source source = {seed};
+  for (int i = 0; i < tree->definition.coordinate_count; i++) {
+    ambulo_coordinate *c = &tree->coordinates[i];
+    int parts = random_below(&source, 16);
+    if (parts & 1) c->armature = random_between(&source, 0.01, 2);
+    if (parts & 2) c->damping = random_between(&source, 0.01, 2);
+    if (parts & 4) c->friction = random_between(&source, 0.01, 2);
+    if (parts & 8) c->armature = c->damping = c->friction = 0;
+  }
+}
+
 /* A link of the chain that random_tree_put_on_root puts below a tree: most often a slider along a
  * world axis. */
 static inline void random_root_link(random_source *source, ambulo_link *link, int parent) {

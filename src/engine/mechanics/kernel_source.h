@@ -8,6 +8,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_SOURCE_H
 #define AMBULO_MECHANICS_KERNEL_SOURCE_H
 
+#include "mechanics/kernel_drives.h"
 #include "mechanics/kernel_jacobian.h"
 #include "mechanics/kernel_jacobian_contacts.h"
 #include "mechanics/kernel_local_reverse.h"
@@ -23,10 +24,11 @@ AMBULO__INLINE void local_forward_part(const ambulo__plan *plan, int keep, const
   local_world(plan, scratch);
   if (plan->contacts > 0) {
     local_grounded(plan, keep, q, qd, qdd, ground, out, scratch);
-    return;
+  } else {
+    local_dynamics(plan, keep, q, qd, qdd, out, scratch);
+    if (plan->points > 0) local_places(plan, keep, 0, out, scratch);
   }
-  local_dynamics(plan, keep, q, qd, qdd, out, scratch);
-  if (plan->points > 0) local_places(plan, keep, 0, out, scratch);
+  drive_torques(plan, qd, qdd, out);
 }
 
 static void outputs(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
@@ -52,6 +54,7 @@ static void reverse(const ambulo__plan *plan, const double *qd, const double *qd
     const local_arrays arrays = {qd + lane,  qdd + lane,  weights + lane, gq + lane,
                                  gqd + lane, gqdd + lane, scratch + lane};
     local_reverse_part(plan, lanes_from(ground, lane), &arrays);
+    drive_adjoints(plan, qd + lane, weights + lane, gqd + lane, gqdd + lane);
   }
 }
 
@@ -61,6 +64,7 @@ static void jacobian(const ambulo__plan *plan, const double *q, const double *qd
     const world_inputs x = {q + lane, qd + lane, qdd + lane};
     local_angles(&plan->local, x.q, scratch + lane);
     jacobian_part(plan, &x, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+    drive_diagonals(plan, x.qd, jqd + lane, jqdd + lane);
     if (plan->contacts == 0) continue;
     jacobian_contacts_part(plan, ground + lane, jq + lane, scratch + lane);
   }

@@ -14,6 +14,8 @@
  *   tau_i = tr[ dA_i/dq D_i ] - g^T dA_i/dq E_i,  dA_i/dq = A_p T_i'               (10)
  *   D_i = J_i C_i^T + sum over children T_c D_c                                    (11)
  *   E_i = m_i r_i + sum over children T_c E_c                                      (12)
+ *   tau_i += a_i qdd_i + b_i qd_i + c_i qd_i / sqrt(qd_i^2 + v^2)                  (10 D)
+ * The last is what the joint's drive adds (ambulo_coordinate): armature a, damping b, friction c.
  *
  * The root wrench is computed from (7)-(9), not from (10)-(12): with c the centre of mass and
  * K = R S Rdd^T, S the second moment of mass about c, so that the rate of angular momentum is
@@ -168,6 +170,18 @@ static void backward(const ambulo_model *model, link_state *states, scalar *tau)
   }
 }
 
+/* (10 D) */
+static void add_drives(const ambulo_model *model, int is_complex, const double *qd,
+                       const double *qdd, scalar *tau) {
+  for (int i = 0; i < model->coordinate_count; i++) {
+    const ambulo_coordinate *c = &model->coordinates[i];
+    scalar rate = component(qd, is_complex, i);
+    double v = ambulo__friction_speed(c);
+    tau[i] += c->armature * component(qdd, is_complex, i) + c->damping * rate;
+    if (c->friction > 0.0) tau[i] += c->friction * rate / csqrt(rate * rate + v * v);
+  }
+}
+
 /* (7) (8) (9): X r for a point r of the link frame. */
 static void apply(const matrix *x, const double r[3], scalar out[3]) {
   for (int i = 0; i < 3; i++) {
@@ -230,6 +244,7 @@ ambulo_status ambulo__lagrangian(int is_complex, const ambulo_model *model, cons
   scalar total[6] = {0};
   forward(model, is_complex, q, qd, qdd, states);
   backward(model, states, forces);
+  add_drives(model, is_complex, qd, qdd, forces);
   for (int i = 0; i < model->link_count; i++) {
     add_wrench(model, &model->links[i], &states[i], total);
   }

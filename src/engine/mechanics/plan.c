@@ -130,8 +130,13 @@ static void compile_prismatic(ambulo__joint *joint, ambulo__placing *placing,
   place_fixed(placing, link);
 }
 
+static int has_drive(const ambulo_coordinate *c) {
+  return c->armature != 0 || c->damping != 0 || c->friction != 0;
+}
+
 /* (DH): Compiles one link. Parents come first, so placings[link->parent] is known. */
-static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__placing *placing) {
+static void compile_link(ambulo__plan *plan, const ambulo_model *model, const ambulo_link *link,
+                         ambulo__placing *placing) {
   if (link->type == AMBULO_FIXED) {
     place_fixed(placing, link);
     return;
@@ -139,12 +144,36 @@ static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__pl
   ambulo__joint *joint = &plan->joints[link->coordinate];
   joint->parent = placing->frame;
   joint->revolute = link->type == AMBULO_REVOLUTE;
+  joint->driven = has_drive(&model->coordinates[link->coordinate]);
   if (joint->revolute) {
     compile_revolute(joint, placing, link);
   } else {
     compile_prismatic(joint, placing, link);
   }
   placing->frame = link->coordinate + 1;
+}
+
+/* Joints that carry the whole body on contacts have no row, and no drive (ambulo__plan_undriven).
+ * The entry of jqd of a slider that stands still is nobody's. */
+static ambulo_status compile_drives(ambulo__plan *plan, const ambulo_model *model) {
+  plan->drives = ambulo__alloc(&plan->allocator, (size_t)plan->coordinates, sizeof *plan->drives);
+  if (!plan->drives) return AMBULO_E_MEMORY;
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo_coordinate *c = &model->coordinates[k];
+    const ambulo__joint *joint = &plan->joints[k];
+    double speed = ambulo__friction_speed(c);
+    int above = plan->ancestor_start[k + 1] - plan->ancestor_start[k];
+    if (!joint->driven || joint->torque_row == AMBULO__ROW_VANISHES) continue;
+    plan->drives[plan->drive_count++] =
+        (ambulo__drive){.input = k * AMBULO__LANES,
+                        .diagonal = (plan->start[k] + above) * AMBULO__LANES,
+                        .alone = !joint->revolute && joint->still,
+                        .armature = c->armature,
+                        .damping = c->damping,
+                        .friction = c->friction,
+                        .smoothing = speed * speed};
+  }
+  return AMBULO_OK;
 }
 
 static void set_fixed_load(ambulo__plan *plan, const ambulo__mass *fixed) {
@@ -204,13 +233,14 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
     const ambulo_link *link = &model->links[i];
     ambulo__placing world = {0, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
     placings[i] = link->parent >= 0 ? placings[link->parent] : world;
-    compile_link(plan, link, &placings[i]);
+    compile_link(plan, model, link, &placings[i]);
   }
   collect_bodies(plan, model, placings, masses);
   collect_points(plan, model, placings);
   if (footing->count > 0 && ambulo__plan_carriers(plan, footing, placings)) goto done;
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
+  if (status == AMBULO_OK) status = compile_drives(plan, model);
   if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_local_build(plan);
 done:
@@ -284,6 +314,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->rate_start);
   ambulo__free(&memory, plan->by_qdd);
   ambulo__free(&memory, plan->roots);
+  ambulo__free(&memory, plan->drives);
   ambulo__free(&memory, plan);
 }
 
@@ -291,6 +322,14 @@ void ambulo__plan_free(ambulo__plan *plan) {
 
 int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {
   return plan->joints[coordinate].torque_row == AMBULO__ROW_VANISHES;
+}
+
+int ambulo__plan_undriven(const ambulo__plan *plan) {
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->driven && joint->torque_row == AMBULO__ROW_VANISHES) return k;
+  }
+  return -1;
 }
 
 size_t ambulo__plan_take_wrench(ambulo__plan *plan) {

@@ -58,9 +58,13 @@ static void stretch(double *lengths, int count, double longer) {
   for (int i = 0; i < count; i++) lengths[i] *= longer;
 }
 
-static void resize_coordinate(ambulo_coordinate *c, double longer, double moment, double force) {
+static void resize_coordinate(ambulo_coordinate *c, double mass, double longer, double moment,
+                              double force) {
   int turns = c->type == AMBULO_REVOLUTE;
   stretch(c->torque, 2, turns ? moment : force);
+  c->armature *= turns ? mass * longer * longer : mass;
+  c->damping *= turns ? moment : force / longer;
+  c->friction *= turns ? moment : force;
   if (turns) return;
   stretch(c->range, 2, longer);
   stretch(c->speed, 2, longer);
@@ -96,7 +100,7 @@ void ambulo__model_resize(ambulo_model *m, double heavier, double longer) {
     stretch(link->inertia, 6, mass * length * length);
   }
   for (int i = 0; i < m->coordinate_count; i++)
-    resize_coordinate(&m->coordinates[i], length, moment, force);
+    resize_coordinate(&m->coordinates[i], mass, length, moment, force);
   stretch_places(m, length);
   m->mass *= mass;
   m->stature *= longer;

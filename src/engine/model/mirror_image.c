@@ -10,6 +10,7 @@
  *   chain     the partner of i hangs on the partner of what i hangs on
  *   axis      a_m = s H a_i of a slider, -s H a_i of a hinge, whose sense of turning a mirror
  *             reverses; the axes of hinges are the same lines
+ *   drive     armature, damping and dry friction
  *   segment   mass m, centre H c, inertia H I H of what each joint carries, m_m = m_i
  *
  * and then torques are mirrored too, gravity being perpendicular to left. No link frame enters:
@@ -185,6 +186,25 @@ static int compare_axes(comparison *c, int i, int m) {
   return compare_directions(c, i, m, a, b) || compare_lines(c, i, m, own.origin, other.origin, b);
 }
 
+/* what a drive adds does not change its sign in the mirror */
+static void compare_drives(comparison *c, int i, int m) {
+  const ambulo_coordinate *a = &c->model->coordinates[i], *b = &c->model->coordinates[m];
+  int slides = a->type == AMBULO_PRISMATIC;
+  const struct {
+    quantity of;
+    double own, other;
+  } parts[] = {
+      {{"armature", slides ? "kg" : "kg m^2", "", 0}, a->armature, b->armature},
+      {{"damping", slides ? "N s/m" : "N m s/rad", "", 0}, a->damping, b->damping},
+      {{"dry friction", slides ? "N" : "N m", "", 0}, a->friction, b->friction},
+  };
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+    double most = tolerance * fmax(parts[k].own, parts[k].other);
+    if (differs(parts[k].own, parts[k].other, 0, most))
+      report(c, &parts[k].of, a->name, parts[k].own, b->name, parts[k].other);
+  }
+}
+
 /* -------------------------------------------------------------------- segments */
 
 static const char *body_name(const comparison *c, int segment) {
@@ -311,6 +331,7 @@ static void compare(comparison *c) {
     int parent = ambulo__segment_parent(&c->segments, i);
     int elsewhere = c->displaced[parent] || compare_chain(c, i, m) || compare_axes(c, i, m);
     c->displaced[i + 1] = c->displaced[m + 1] = (char)elsewhere;
+    if (i != m) compare_drives(c, i, m);
     compare_bodies(c, i + 1, m + 1);
   }
   for (int f = 0; f < model->foot_count; f++) {

@@ -50,6 +50,11 @@ struct ambulo_model {
   int capsule_count;
 };
 
+/* Speed at which a coordinate's dry friction is smoothed, rad/s or m/s. */
+static inline double ambulo__friction_speed(const ambulo_coordinate *coordinate) {
+  return coordinate->type == AMBULO_REVOLUTE ? AMBULO_FRICTION_RATE : AMBULO_FRICTION_SPEED;
+}
+
 /* What is so long along forward, left and up, along the world's axes. */
 static inline void ambulo__along_axes(const ambulo_model *model, const double along[3],
                                       double world[3]) {

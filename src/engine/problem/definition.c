@@ -303,6 +303,8 @@ static hash add_bodies(hash h, const ambulo_model *model) {
     const int integers[] = {(int)c->type, c->actuated, c->mirror};
     h = add_numbers(add_integers(add_text(h, c->name), integers, 3), numbers, 2);
     h = add_numbers(add_numbers(add_numbers(h, c->range, 2), c->speed, 2), c->torque, 2);
+    const double drive[] = {c->armature, c->damping, c->friction};
+    if (drive[0] != 0.0 || drive[1] != 0.0 || drive[2] != 0.0) h = add_numbers(h, drive, 3);
   }
   return h;
 }

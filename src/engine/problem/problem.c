@@ -172,6 +172,16 @@ static double moment_arm(const ambulo_problem_definition *d, const ambulo__slots
   return slots->all_points ? fmin(arm, AMBULO__POINT_REGION) : arm;
 }
 
+/* contacts carry what moves the whole body: no torque is left to drive it with */
+static ambulo_status check_undriven(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  int k = ambulo__plan_undriven(p->plan);
+  if (k < 0) return AMBULO_OK;
+  return REFUSE(diagnostics,
+                "ground_reaction: the contacts carry the whole body, which '%s' moves; expected it "
+                "without armature, damping and friction",
+                p->model->coordinates[k].name);
+}
+
 static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
@@ -185,8 +195,10 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
                   ambulo_model_name(p->model), slots.count, AMBULO__MOST_SLOTS);
   p->channels.feet = ambulo_model_foot_count(p->model);
   p->channels.slots = slots.count;
-  return ambulo__plan_create_contacts(p->model, slots.link, slots.count, moment_arm(d, &slots),
-                                      r->slant, &p->allocator, &p->plan);
+  ambulo_status status =
+      ambulo__plan_create_contacts(p->model, slots.link, slots.count, moment_arm(d, &slots),
+                                   r->slant, &p->allocator, &p->plan);
+  return status ? status : check_undriven(p, diagnostics);
 }
 
 static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {

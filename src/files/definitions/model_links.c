@@ -69,6 +69,22 @@ static double sign_at(const ambulo__yaml_node *node) {
   return ambulo__yaml_choice(node, signs, 3, 0) == 1 ? -1 : 1;
 }
 
+/* Inertia has the unit of the bodies', damping that of torque by rad/s, or of force by length. */
+static void read_drive(ambulo__reader *reader, const ambulo__yaml_node *node,
+                       ambulo_coordinate *coordinate) {
+  int is_angle = coordinate->type == AMBULO_REVOLUTE;
+  double torque = is_angle ? reader->moment : reader->force, length = reader->length;
+  double inertia = is_angle ? reader->mass * length * length : reader->mass;
+  const ambulo__yaml_node *armature = ambulo__yaml_get(node, "armature");
+  const ambulo__yaml_node *damping = ambulo__yaml_get(node, "damping");
+  const ambulo__yaml_node *friction = ambulo__yaml_get(node, "friction");
+  if (armature) coordinate->armature = ambulo__read_scaled(reader, armature, inertia, 0);
+  if (damping)
+    coordinate->damping =
+        ambulo__read_scaled(reader, damping, is_angle ? torque : torque / length, 0);
+  if (friction) coordinate->friction = ambulo__read_scaled(reader, friction, torque, 0);
+}
+
 /* `node` may be NULL: a joint without limits, named after its link. */
 static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *node,
                             const ambulo_link *link, ambulo__place link_place) {
@@ -87,6 +103,7 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "torque"),
                         is_angle ? reader->moment : reader->force, 0, coordinate->torque);
+  read_drive(reader, node, coordinate);
   const ambulo__yaml_node *start = ambulo__yaml_get(node, "default");
   if (start)
     coordinate->default_value = is_angle ? ambulo__read_angle(reader, start, unit)
