@@ -83,11 +83,29 @@ def judge(label, ours, theirs, bound=BOUND):
 # ----------------------------------------------------------------- Pinocchio
 
 
-def pin_states(pin, model, names, held, states):
+def mimics(source):
+    """(leader, multiplier, offset) of joints that follow another, which itself follows none."""
+    found = {}
+    for joint in ET.parse(source).getroot().findall("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            found[joint.get("name")] = (mimic.get("joint"), float(mimic.get("multiplier", 1)),
+                                        float(mimic.get("offset", 0)))
+    for name in found:
+        while found[name][0] in found:
+            (leader, times, plus), (above, more, start) = found[name], found[found[name][0]]
+            found[name] = (above, times * more, times * start + plus)
+    return found
+
+
+def pin_states(pin, model, names, followers, states):
     """(q, v, a) of Pinocchio. The root is a composite of the six joints of the import."""
     root = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
     for state in states:
         values = [dict(zip(names, part)) for part in state]
+        for name, (leader, times, plus) in followers.items():
+            for k in range(3):
+                values[k][name] = times * values[k][leader] + (plus if k == 0 else 0.0)
         q = pin.neutral(model)
         v, a = [0.0] * model.nv, [0.0] * model.nv
         for j in range(1, model.njoints):
@@ -97,7 +115,7 @@ def pin_states(pin, model, names, held, states):
                     q[joint.idx_q + i] = values[0][n]
                     v[joint.idx_v + i], a[joint.idx_v + i] = values[1][n], values[2][n]
                 continue
-            angle = values[0].get(name, held.get(name, 0.0))
+            angle = values[0].get(name, 0.0)
             if joint.nq == 2:
                 q[joint.idx_q], q[joint.idx_q + 1] = math.cos(angle), math.sin(angle)
             else:
@@ -129,17 +147,17 @@ def compare_urdf(ambulo, source, scratch, seed):
     free = "base_tx" in names
     model = pin.buildModelFromUrdf(source, root) if free else pin.buildModelFromUrdf(source)
     model.gravity.linear[:] = [0, 0, -9.81]
-    held = {}
-    for joint in ET.parse(source).getroot().findall("joint"):
-        mimic = joint.find("mimic")
-        if mimic is not None:
-            held[joint.get("name")] = float(mimic.get("offset", 0))
+    followers = mimics(source)
     data = model.createData()
     states = random_states(names, seed)
-    columns = pin_columns(model, names)
+    columns = pin_columns(model, names + list(followers))
     theirs = []
-    for q, v, a in pin_states(pin, model, names, held, states):
-        theirs.append(pin.rnea(model, data, q, np.array(v), np.array(a))[columns].tolist())
+    for q, v, a in pin_states(pin, model, names, followers, states):
+        tau = dict(zip(names + list(followers),
+                       pin.rnea(model, data, q, np.array(v), np.array(a))[columns].tolist()))
+        for name, (leader, times, _) in followers.items():
+            tau[leader] += times * tau[name]
+        theirs.append([tau[n] for n in names])
     return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
 
 
@@ -179,23 +197,45 @@ def mujoco_model(mujoco, np, source):
     return spec.compile()
 
 
+def mujoco_couplings(mujoco, source):
+    """(follower, leader, coefficients) of active equalities of two joints."""
+    model, found = mujoco.MjModel.from_xml_path(source), []
+    for i in range(model.neq):
+        if model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[i] and model.eq_obj2id[i] >= 0:
+            found.append((model.joint(model.eq_obj1id[i]).name, model.joint(model.eq_obj2id[i]).name,
+                          list(model.eq_data[i][:5])))
+    return found
+
+
 def compare_mjcf(ambulo, source, scratch, seed):
     import mujoco
     import numpy as np
 
     target = convert(ambulo, source, os.path.join(scratch, "model.yaml"))
     names = [n for n, _ in coordinates(target)]
+    couplings = mujoco_couplings(mujoco, source)
     model = mujoco_model(mujoco, np, source)
     model.dof_armature[:] = 0
     model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
     if not model.opt.gravity.any():
         model.opt.gravity[:] = [0, 0, -9.81]  # as the import says
     data = mujoco.MjData(model)
-    at = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n) for n in names]
-    assert min(at) >= 0 and model.nv == len(names), (names, model.nv)
+    joints = names + [follower for follower, _, _ in couplings]
+    at = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n) for n in joints]
+    assert min(at) >= 0 and model.nv == len(joints), (joints, model.nv)
     states = random_states(names, seed)
     theirs = []
     for q, v, a in states:
+        q, v, a, slopes = list(q), list(v), list(a), []
+        for follower, leader, c in couplings:
+            k, y0 = names.index(leader), model.joint(follower).qpos0[0]
+            x = q[k] - model.joint(leader).qpos0[0]
+            slope = sum(i * c[i] * x ** (i - 1) for i in range(1, 5))
+            bend = sum(i * (i - 1) * c[i] * x ** (i - 2) for i in range(2, 5))
+            q.append(y0 + sum(c[i] * x ** i for i in range(5)))
+            v.append(slope * v[k])
+            a.append(slope * a[k] + bend * v[k] ** 2)
+            slopes.append((k, slope))
         for k, j in enumerate(at):
             data.qpos[model.jnt_qposadr[j]] = q[k]
             data.qvel[model.jnt_dofadr[j]], data.qacc[model.jnt_dofadr[j]] = v[k], a[k]
@@ -203,7 +243,10 @@ def compare_mjcf(ambulo, source, scratch, seed):
         mujoco.mj_fwdVelocity(model, data)
         tau = np.zeros(model.nv)
         mujoco.mj_rne(model, data, 1, tau)
-        theirs.append([float(tau[model.jnt_dofadr[j]]) for j in at])
+        all_of_them = [float(tau[model.jnt_dofadr[j]]) for j in at]
+        for (k, slope), more in zip(slopes, all_of_them[len(names):]):
+            all_of_them[k] += slope * more
+        theirs.append(all_of_them[:len(names)])
     return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
 
 
