@@ -368,5 +368,5 @@ int main(void) {
                                      cmocka_unit_test(limits), cmocka_unit_test(changes_are_named),
                                      cmocka_unit_test(other_choices),
                                      cmocka_unit_test(what_cannot_follow)};
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
