@@ -6,8 +6,8 @@
  *
  * (Denavit & Hartenberg 1955; the seed's Fig. 1). A revolute link adds its
  * coordinate q to theta, a prismatic link adds q to d, a fixed link has no
- * coordinate. The link frame is the frame *after* the transform; bodies and
- * points are given in it. Units: SI and radians, always.
+ * coordinate; a coupled link adds a function of another link's coordinate. The link frame is the
+ * frame *after* the transform; bodies and points are given in it. Units: SI and radians, always.
  *
  * A model is built from a definition in memory or from a YAML file
  * (docs/model-format.md), checked, and never changes afterwards: it may be shared
@@ -80,10 +80,20 @@ typedef struct ambulo_link {
   int parent; /* index of the parent link; -1: the world */
   ambulo_joint_type type;
   double theta, d, a, alpha; /* DH constants: rad, m, m, rad */
-  int coordinate;            /* coordinate index; -1 for a fixed link */
+  int coordinate;            /* coordinate index; -1 for a fixed or coupled link */
   double mass;               /* kg; 0: no body */
   double com[3];             /* centre of mass in the link frame, m */
   double inertia[6];         /* about the centre of mass, link axes: xx yy zz xy xz yz, kg m^2 */
+  /* A coupled joint, revolute or prismatic, has no coordinate and no limits of its own: its value,
+   * rad or m, is a function of a coordinate, as the parts of a knee that slide as it bends. A joint
+   * that is not coupled has coupled_to = -1. */
+  int coupled_to;       /* that coordinate; its own joint is not coupled */
+  int spline_count;     /* points of the function, 2 to 1024; 0: it is the polynomial */
+  const double *spline; /* [spline_count][2]: coordinate, ascending, and value of the joint. The
+                           cubic spline through them, straight beyond both ends; its second
+                           derivative is continuous between the ends */
+  double
+      polynomial[5]; /* the joint's value is the sum of polynomial[i] times q to the power of i */
 } ambulo_link;
 
 /* A named point fixed on a link. */
@@ -136,7 +146,8 @@ typedef struct ambulo_capsule {
 
 /* Everything a model consists of. Arrays are borrowed during the call only.
  * In the definition `parent`, `link`, `mirror` and point numbers are indices
- * into these arrays; `links[i].coordinate` is ignored (numbered by order);
+ * into these arrays, `coupled_to` one into `coordinates`; `links[i].coordinate` is ignored
+ * (numbered by order);
  * `coordinates[k]` describes the k-th link that has a coordinate. */
 typedef struct ambulo_model_definition {
   /* Set by ambulo_model_definition_default(): its own, and those of the items below. */

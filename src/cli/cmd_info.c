@@ -21,10 +21,13 @@ static void print_links(const ambulo_model *model) {
     printf("  %-3d %-22s %-22s %-9s %8.2f %8.4f %8.4f %8.2f ", i, link->name, parent,
            types[link->type], degrees * link->theta, link->d, link->a, degrees * link->alpha);
     if (link->mass > 0.0) {
-      printf("%8.4f\n", link->mass);
+      printf("%8.4f", link->mass);
     } else {
-      printf("%8s\n", "-");
+      printf("%8s", "-");
     }
+    if (link->coupled_to >= 0)
+      printf("  follows %s", ambulo_model_coordinate(model, link->coupled_to)->name);
+    printf("\n");
   }
 }
 

@@ -14,6 +14,7 @@
 #include "base/text_buffer.h"
 #include "exchange/rigid.h"
 #include "exchange/xml.h"
+#include "model/coupling.h"
 #include "model/model_check.h"
 
 #include <stddef.h>
@@ -27,6 +28,13 @@ typedef struct ambulo__mesh {
   int count;
 } ambulo__mesh;
 
+/* A function of a coordinate: the spline through points, or without any the polynomial. */
+typedef struct ambulo__tree_function {
+  int count;
+  const double *points; /* [count][2] */
+  double polynomial[AMBULO__COUPLING_TERMS];
+} ambulo__tree_function;
+
 typedef struct ambulo__tree_link {
   const char *name;
   int parent; /* -1: the world */
@@ -35,7 +43,12 @@ typedef struct ambulo__tree_link {
   double axis[3];               /* unit, link's frame */
   ambulo_coordinate coordinate; /* names and limits; `mirror` is a link of the tree, -1: none */
   int has_mirror;
-  ambulo__part body;   /* mass 0: none */
+  /* A joint that is a function of the coordinate of another: its own has no name. `was`: the name
+   * that it has in the source; NULL: none. */
+  const char *follows, *was;
+  ambulo__tree_function function;
+  double reference;  /* of a joint of MuJoCo: where functions count its coordinate from, rad or m */
+  ambulo__part body; /* mass 0: none */
   const char *comment; /* one line, NULL: none */
   const ambulo__xml_node *node;
 } ambulo__tree_link;
@@ -128,12 +141,31 @@ int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */
 int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
-/* Placement of a link in the world at q = 0. */
-ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
+/* Placement of a link in the world at q = 0, and with all coordinates at their defaults. */
+ambulo__rigid ambulo__tree_place(ambulo__tree *tree, int link);
+ambulo__rigid ambulo__tree_start_place(ambulo__tree *tree, int link);
 /* Unit vectors along forward, left and up. */
 void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback);
+
+/* ---------------------------- joints that follow others (tree_functions.c) */
+
+ambulo__tree_function ambulo__tree_line(double slope, double offset);
+int ambulo__function_is_line(const ambulo__tree_function *function);
+double ambulo__function_value(ambulo__tree *tree, const ambulo__tree_function *function, double x);
+/* *out = g(f(x)); 0 where that is no spline and no polynomial of degree 4, or without memory. */
+int ambulo__function_of_function(ambulo__tree *tree, const ambulo__tree_function *g,
+                                 const ambulo__tree_function *f, ambulo__tree_function *out);
+/* The joint of a link becomes a function of a coordinate, named as in the source. */
+void ambulo__tree_couple(ambulo__tree *tree, int link, const char *to,
+                         const ambulo__tree_function *function);
+/* Where the joint of a link stands at q = 0, or (start = 1) with all coordinates at their defaults.
+ */
+double ambulo__tree_stands(ambulo__tree *tree, int link, int start);
+/* Once all links are there: joints that follow one that follows another follow that one; what
+ * cannot follow is held. */
+void ambulo__tree_resolve(ambulo__tree *tree);
 
 /* A chain of joints between a parent and a body: every joint becomes a link of its own, placements
  * in between are put together. */
@@ -205,6 +237,6 @@ void ambulo__find_start(ambulo__tree *tree);
 /* Partners of coordinates, left for right (mirror_pairs.c). */
 void ambulo__find_mirrors(ambulo__tree *tree);
 /* The model file as text (tree_yaml.c). `source`: name of the file it came from. */
-void ambulo__tree_print(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text);
+void ambulo__tree_print(ambulo__tree *tree, const char *source, ambulo__text_buffer *text);
 
 #endif

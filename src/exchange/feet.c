@@ -289,18 +289,6 @@ void ambulo__find_feet(ambulo__tree *tree) {
  * is off the ground.
  */
 
-static ambulo__rigid start_place(const ambulo__tree *tree, int link) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    ambulo__rigid step =
-        ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->coordinate.default_value);
-    if (l->type != AMBULO_FIXED) place = ambulo__rigid_times(&step, &place);
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
-}
-
 static void keep_in_range(ambulo__tree *tree, ambulo__tree_link *link) {
   ambulo_coordinate *c = &link->coordinate;
   double inside = fmin(c->range[1], fmax(c->range[0], c->default_value));
@@ -312,13 +300,13 @@ static void keep_in_range(ambulo__tree *tree, ambulo__tree_link *link) {
 }
 
 /* the slider on the way to a link that goes up and that nothing drives; -1 */
-static int lift_of(const ambulo__tree *tree, int link, const double up[3], double *along) {
+static int lift_of(ambulo__tree *tree, int link, const double up[3], double *along) {
   int found = -1;
   for (int i = link; i >= 0; i = tree->links[i].parent) {
     const ambulo__tree_link *l = &tree->links[i];
     double axis[3];
-    if (l->type != AMBULO_PRISMATIC || l->coordinate.actuated) continue;
-    ambulo__rigid place = start_place(tree, i);
+    if (l->type != AMBULO_PRISMATIC || l->follows || l->coordinate.actuated) continue;
+    ambulo__rigid place = ambulo__tree_start_place(tree, i);
     ambulo__rigid_vector(&place, l->axis, axis);
     double cosine = ambulo__dot(axis, up);
     if (fabs(cosine) < 0.999) continue;
@@ -339,7 +327,7 @@ static void start_pose_stand(ambulo__tree *tree) {
       double at[3];
       if (points[k] < 0) continue;
       const ambulo__tree_point *point = &tree->points[points[k]];
-      ambulo__rigid place = start_place(tree, point->link);
+      ambulo__rigid place = ambulo__tree_start_place(tree, point->link);
       ambulo__rigid_point(&place, point->position, at);
       lowest = fmin(lowest, ambulo__dot(at, up));
     }

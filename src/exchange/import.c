@@ -44,7 +44,7 @@ static void expect_motion(const ambulo__tree *tree, const ambulo__xml_node *root
   int joints = 0;
   double mass = 0.0;
   for (int i = 0; i < tree->link_count; i++) {
-    joints += tree->links[i].type != AMBULO_FIXED;
+    joints += tree->links[i].type != AMBULO_FIXED && !tree->links[i].follows;
     mass += tree->links[i].body.mass;
   }
   if (tree->xml->status || tree->arena->failed) return;
@@ -75,6 +75,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (!root) return xml->status;
   tree->path = path;
   read_format(tree, root, path);
+  if (!xml->status && !tree->arena->failed) ambulo__tree_resolve(tree);
   expect_motion(tree, root);
   if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);

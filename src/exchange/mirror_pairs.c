@@ -96,7 +96,7 @@ static void left_of(const ambulo__tree *tree, double left[3]) {
 }
 
 /* +1 or -1; 0: neither */
-static double sign_of(const ambulo__tree *tree, int link, int partner, const double left[3]) {
+static double sign_of(ambulo__tree *tree, int link, int partner, const double left[3]) {
   double a[3], b[3];
   ambulo__rigid place = ambulo__tree_place(tree, link), other = ambulo__tree_place(tree, partner);
   ambulo__rigid_vector(&place, tree->links[link].axis, a);
@@ -135,7 +135,7 @@ void ambulo__find_mirrors(ambulo__tree *tree) {
   for (int i = 0; i < tree->link_count; i++) {
     ambulo__tree_link *link = &tree->links[i];
     int alone = 0;
-    if (link->type == AMBULO_FIXED) continue;
+    if (link->type == AMBULO_FIXED || link->follows) continue;
     int partner = partner_of(tree, i, &alone);
     if (partner_of(tree, partner, &alone) != i || tree->links[partner].type != link->type)
       partner = i;

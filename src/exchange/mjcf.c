@@ -1,8 +1,9 @@
 /* exchange/mjcf.c - the rigid part of a MuJoCo model (MJCF): settings, and what is left out.
  *
  * Bodies with their joints, masses and geoms (mjcf_bodies.c), default classes, included files,
- * torque limits from actuators. Angles are degrees unless the compiler says radian; z is up.
- * Tendons, equalities, springs of joints and contacts are not carried over.
+ * torque limits from actuators; joints that an equality makes a polynomial of another. Angles are
+ * degrees unless the compiler says radian; z is up. Tendons, other equalities, springs of joints
+ * and contacts are not carried over.
  */
 #include "exchange/mjcf.h"
 
@@ -203,13 +204,45 @@ static void set_total_mass(ambulo__mjcf *m) {
   }
 }
 
-static void note_leftovers(ambulo__mjcf *m) {
+/* joints that follow others (mjcf.h).
+ *
+ * <equality><joint joint1 joint2 polycoef>: with positions that begin at each joint's reference,
+ *
+ *     y - y0 = a0 + a1 (x - x0) + ... + a4 (x - x0)^4
+ *
+ * in radians or metres, also where the file has degrees. */
+
+/* 1: it became a function. */
+static int couple(ambulo__mjcf *m, const ambulo__xml_node *n) {
+  const char *own = ambulo__xml_attribute(n, "joint1"), *to = ambulo__xml_attribute(n, "joint2");
+  int link = own && to ? ambulo__tree_find_coordinate(m->tree, own) : -1;
+  int leader = own && to ? ambulo__tree_find_coordinate(m->tree, to) : -1;
+  ambulo__tree_function f = ambulo__tree_line(1.0, 0.0), whole;
+  if (!ambulo__xml_is(n, "joint") || link < 0 || leader < 0 || link == leader) return 0;
+  if (!ambulo__mjcf_flag(m, n, NULL, "active", 1)) return 0;
+  (void)ambulo__mjcf_numbers(m, n, NULL, "polycoef", 1, AMBULO__COUPLING_TERMS, f.polynomial);
+  f.polynomial[0] += m->tree->links[link].reference;
+  ambulo__tree_function from = ambulo__tree_line(1.0, -m->tree->links[leader].reference);
+  if (!ambulo__function_of_function(m->tree, &f, &from, &whole)) return 0;
+  ambulo__tree_couple(m->tree, link, to, &whole);
+  return 1;
+}
+
+static int couple_joints(ambulo__mjcf *m) {
+  int count = 0;
+  AMBULO__XML_EACH (set, m->root, "equality")
+    for (const ambulo__xml_node *n = set->first; n; n = n->next) count += couple(m, n);
+  return count;
+}
+
+static void note_leftovers(ambulo__mjcf *m, int coupled) {
   static const char *const sets[] = {"tendon", "equality", "deformable", "extension"};
   for (int i = 0; i < 4; i++) {
     int count = 0;
     for (const ambulo__xml_node *set = ambulo__xml_child(m->root, sets[i]); set;
          set = ambulo__xml_next(set, sets[i]))
       for (const ambulo__xml_node *n = set->first; n; n = n->next) count++;
+    if (i == 1) count -= coupled;
     if (count) ambulo__tree_note(m->tree, NULL, "%d of <%s> are left out", count, sets[i]);
   }
   const struct {
@@ -261,5 +294,5 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
   if (tree->xml->status || tree->arena->failed) return;
   set_total_mass(&m);
   read_actuators(&m);
-  note_leftovers(&m);
+  note_leftovers(&m, couple_joints(&m));
 }

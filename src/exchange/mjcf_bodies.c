@@ -151,6 +151,7 @@ static void one_coordinate(reading *b, ambulo__chain *chain, const ambulo__xml_n
   read_limits(b, joint, slides, link);
   (void)ambulo__mjcf_numbers(m, joint, b->around, "ref", 1, 1, &zero);
   const double *key = take_key(m, 1);
+  m->tree->links[link].reference = slides ? zero : zero * m->angle;
   m->tree->links[link].coordinate.default_value = ambulo__tree_pose(m->tree, name,
                                                                     key      ? *key
                                                                     : slides ? zero

@@ -54,8 +54,10 @@ int ambulo__osim_flag(const ambulo__xml_node *node, const char *name, int otherw
 typedef struct ambulo__osim_coordinate {
   const char *name;
   const ambulo__xml_node *node;
-  int held;     /* 1: it does not move: locked, prescribed, or another's dependent */
-  double value; /* where it stands when something is frozen, rad or m */
+  int held;           /* 1: it does not move: locked, prescribed, or follows one that does not */
+  double value;       /* where it stands when something is frozen, rad or m */
+  const char *leader; /* the coordinate that it is a function of; NULL: it is its own */
+  ambulo__tree_function function;
 } ambulo__osim_coordinate;
 /* Fills list[0..most); how many the joint has. Says what is held. */
 int ambulo__osim_coordinates(ambulo__osim *o, const ambulo__osim_joint *joint, int most,
@@ -78,6 +80,9 @@ double ambulo__osim_value(ambulo__osim *o, const ambulo__xml_node *function, dou
  */
 double ambulo__osim_travel(ambulo__osim *o, const ambulo__xml_node *function, double scale,
                            const ambulo__xml_node *coordinate, double x, double from);
+/* The function as joints can have it; 0: it has corners, or is a polynomial of a degree above 4. */
+int ambulo__osim_read_function(ambulo__osim *o, const ambulo__xml_node *function,
+                               ambulo__tree_function *f);
 /* 1 and slope x + offset, if the function is a straight line: constants, linear functions, splines
  * through points on a line. */
 int ambulo__osim_is_linear(ambulo__osim *o, const ambulo__xml_node *function, double *slope,

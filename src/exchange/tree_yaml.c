@@ -110,7 +110,30 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
   ambulo__text_append(text, "}");
 }
 
-static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
+/* Angles of both sides in degrees: c_i becomes c_i X^i / Y. */
+static void print_function(ambulo__tree *tree, const ambulo__tree_link *link,
+                           ambulo__text_buffer *text) {
+  const ambulo__tree_function *f = &link->function;
+  const ambulo__tree_link *to = &tree->links[ambulo__tree_find_coordinate(tree, link->follows)];
+  double x = to->type == AMBULO_REVOLUTE ? degree : 1.0;
+  double y = link->type == AMBULO_REVOLUTE ? degree : 1.0, factor = 1.0 / y;
+  int last = AMBULO__COUPLING_TERMS - 1;
+  while (last > 0 && f->polynomial[last] == 0.0) last--;
+  ambulo__text_append_format(text, ",\n     coupled: {to: %s, %s: [", to->coordinate.name,
+                             f->count ? "spline" : "polynomial");
+  for (int i = 0; i <= last && f->count == 0; i++, factor *= x) {
+    if (i) ambulo__text_append(text, ", ");
+    ambulo__text_append_number(text, neat(factor * f->polynomial[i]));
+  }
+  for (int i = 0; i < f->count; i++) {
+    const double pair[2] = {f->points[2 * i] / x, f->points[2 * i + 1] / y};
+    if (i) ambulo__text_append(text, i % 4 ? ", " : ",\n       ");
+    list(text, pair, 2, neat);
+  }
+  ambulo__text_append(text, "]}");
+}
+
+static void print_link(ambulo__tree *tree, const ambulo__tree_link *link,
                        ambulo__text_buffer *text) {
   static const char *const types[] = {"", "fixed", "revolute", "prismatic"};
   double rpy[3];
@@ -133,7 +156,10 @@ static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
   if (link->type != AMBULO_FIXED) {
     ambulo__text_append(text, ", axis: ");
     list(text, link->axis, 3, neat_turn);
-    print_coordinate(tree, link, text);
+    if (link->follows)
+      print_function(tree, link, text);
+    else
+      print_coordinate(tree, link, text);
   }
   if (link->body.mass > 0.0) {
     ambulo__text_append(text, ",\n     body: {mass: ");
@@ -204,7 +230,7 @@ static void print_head(const ambulo__tree *tree, const char *source, ambulo__tex
   ambulo__text_append(text, "\n\nlinks:\n");
 }
 
-void ambulo__tree_print(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text) {
+void ambulo__tree_print(ambulo__tree *tree, const char *source, ambulo__text_buffer *text) {
   print_head(tree, source, text);
   for (int i = 0; i < tree->link_count; i++) print_link(tree, &tree->links[i], text);
   if (tree->point_count) ambulo__text_append(text, "\npoints:\n");

@@ -7,6 +7,17 @@
 #define MODEL(inner) "<mujoco>\n<worldbody>\n" inner "</worldbody>\n</mujoco>\n"
 #define HINGE(more) MODEL("<body name='b'>" BODY "\n<joint name='j' " more "/></body>")
 
+/* joints that are polynomials of others, about references; one that is off is none */
+static void functions_as_mujoco(void **state) {
+  (void)state;
+  static const double want[] = {5.24822137132024, 1.61252934878532};
+  import_case c = import_file("tests/exchange/coupled_joints.xml", NULL);
+  assert_int_equal(c.status, AMBULO_OK);
+  assert_torques(c.model, want, 2, 1e-12);
+  assert_told(&c, "1 of <equality> are left out");
+  import_shut(&c);
+}
+
 static void as_mujoco(void **state) {
   (void)state;
   static const double want[] = {4.45988213124041,   -31.8283296199847,   312.697450895045,
@@ -274,6 +285,7 @@ static void included_files(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(as_mujoco),
                                      cmocka_unit_test(drives),
+                                     cmocka_unit_test(functions_as_mujoco),
                                      cmocka_unit_test(limits),
                                      cmocka_unit_test(what_is_driven),
                                      cmocka_unit_test(solids),

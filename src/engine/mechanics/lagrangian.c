@@ -77,6 +77,32 @@ static scalar component(const double *values, int is_complex, int index) {
   return values[index];
 }
 
+/* A joint's value and rates: those of its coordinate, or, of a coupled one,
+ *   theta = f(q),  theta_d = f' qd,  theta_dd = f' qdd + f'' qd^2                     (K.1) */
+typedef struct joint_motion {
+  scalar q, v, w, slope; /* slope: f' */
+} joint_motion;
+
+static joint_motion couple(const ambulo__coupling *coupling, scalar q, scalar v, scalar w) {
+  const ambulo__piece *piece = ambulo__coupling_piece(coupling, creal(q));
+  const double *c = piece->c;
+  scalar t = q - piece->at;
+  scalar slope = c[1] + t * (2 * c[2] + t * (3 * c[3] + t * 4 * c[4]));
+  scalar bend = 2 * c[2] + t * (6 * c[3] + t * 12 * c[4]);
+  scalar value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
+  return (joint_motion){value, slope * v, slope * w + bend * v * v, slope};
+}
+
+static joint_motion motion_of(const ambulo_model *model, int link, int is_complex, const double *q,
+                              const double *qd, const double *qdd) {
+  int k = ambulo__moved_by(model, link);
+  if (k < 0) return (joint_motion){0, 0, 0, 0};
+  scalar x = component(q, is_complex, k), v = component(qd, is_complex, k);
+  scalar w = component(qdd, is_complex, k);
+  if (model->links[link].coordinate >= 0) return (joint_motion){x, v, w, 1};
+  return couple(&model->couplings[link], x, v, w);
+}
+
 /* (4) (5) (6) for all links, parents first. */
 static void forward(const ambulo_model *model, int is_complex, const double *q, const double *qd,
                     const double *qdd, link_state *states) {
@@ -87,10 +113,10 @@ static void forward(const ambulo_model *model, int is_complex, const double *q, 
     link_state *s = &states[i];
     const link_state *p = link->parent >= 0 ? &states[link->parent] : NULL;
     const matrix *a = p ? &p->a : &identity, *b = p ? &p->b : &zero, *c = p ? &p->c : &zero;
-    int k = link->coordinate;
-    scalar v = k >= 0 ? component(qd, is_complex, k) : 0;
-    scalar w = k >= 0 ? component(qdd, is_complex, k) : 0;
-    transform(link, k >= 0 ? component(q, is_complex, k) : 0, s);
+    joint_motion joint = motion_of(model, i, is_complex, q, qd, qdd);
+    scalar v = joint.v, w = joint.w;
+    s->slope = joint.slope;
+    transform(link, joint.q, s);
     s->a = s->b = s->c = zero;
     add_product(&s->a, 1, a, &s->t, 1); /* (4) */
     add_product(&s->b, 1, b, &s->t, 1); /* (5) */
@@ -159,13 +185,15 @@ static scalar joint_force(const ambulo_model *model, const link_state *p, const 
   return tau;
 }
 
-/* Eqs. (10)-(12), children first. */
+/* Eqs. (10)-(12), children first; (K.2) each coupled joint adds f' times its own force. */
 static void backward(const ambulo_model *model, link_state *states, scalar *tau) {
   for (int i = 0; i < model->link_count; i++) start_backward(&model->links[i], &states[i]);
+  for (int k = 0; k < model->coordinate_count; k++) tau[k] = 0;
   for (int i = model->link_count - 1; i >= 0; i--) {
     const ambulo_link *link = &model->links[i];
     link_state *p = link->parent >= 0 ? &states[link->parent] : NULL;
-    if (link->coordinate >= 0) tau[link->coordinate] = joint_force(model, p, &states[i]);
+    int k = ambulo__moved_by(model, i);
+    if (k >= 0) tau[k] += states[i].slope * joint_force(model, p, &states[i]);
     if (p) add_to_parent(p, &states[i]);
   }
 }

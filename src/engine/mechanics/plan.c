@@ -12,7 +12,7 @@
  * that axes stay aligned along the chain; Trans_z may be done before the turn, and is where that
  * lets more axes share an origin. Numbers that stem from cos(pi/2) are rounded to zero.
  */
-#include "mechanics/plan_layout.h"
+#include "mechanics/plan_coupled.h"
 
 #include <math.h>
 #include <string.h>
@@ -256,6 +256,12 @@ static ambulo_status create(const ambulo_model *model, const ambulo__footing *fo
   ambulo__plan *plan = ambulo__alloc(&memory, 1, sizeof *plan);
   if (!plan) return AMBULO_E_MEMORY;
   plan->allocator = memory;
+  if (model->coupled_count > 0) {
+    status = ambulo__coupled_plan_build(plan, model, footing);
+    if (status != AMBULO_OK) goto failed;
+    *out = plan;
+    return AMBULO_OK;
+  }
   plan->coordinates = model->coordinate_count;
   plan->points = model->point_count;
   memcpy(plan->gravity, model->gravity, sizeof plan->gravity);
@@ -302,6 +308,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo_allocator memory = plan->allocator;
   ambulo__plan_steps_free(plan);
   ambulo__plan_local_free(plan);
+  ambulo__coupled_plan_free(plan);
   ambulo__free(&memory, plan->frames);
   ambulo__free(&memory, plan->joints);
   ambulo__free(&memory, plan->body);
@@ -325,6 +332,10 @@ int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {
 }
 
 int ambulo__plan_undriven(const ambulo__plan *plan) {
+  if (plan->coupled) {
+    int joint = ambulo__plan_undriven(plan->coupled->open);
+    return joint < 0 ? -1 : plan->coupled->coordinate[joint];
+  }
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__joint *joint = &plan->joints[k];
     if (joint->driven && joint->torque_row == AMBULO__ROW_VANISHES) return k;
@@ -333,6 +344,12 @@ int ambulo__plan_undriven(const ambulo__plan *plan) {
 }
 
 size_t ambulo__plan_take_wrench(ambulo__plan *plan) {
+  struct ambulo__coupled_plan *c = plan->coupled;
+  if (c) {
+    size_t at = ambulo__plan_take_wrench(c->open);
+    plan->scratch = (size_t)c->open_at + ambulo__plan_scratch(c->open);
+    return (size_t)c->open_at + at;
+  }
   plan->taken_at = plan->scratch;
   plan->scratch += (size_t)12 * AMBULO__LANES;
   return plan->taken_at;

@@ -178,6 +178,7 @@ struct ambulo__plan {
 
   ambulo__steps steps;
   ambulo__local_plan local;
+  struct ambulo__coupled_plan *coupled; /* plan_coupled.h; NULL: every joint has a coordinate */
 };
 
 /* the steps of compiling a plan, in order. Private to plan*.c. */

@@ -18,7 +18,7 @@ static ambulo__place place_of_coordinate(const ambulo__checker *c, int index) {
 
 static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, int index) {
   for (int i = 0, seen = 0; i < d->link_count; i++) {
-    if (d->links[i].type != AMBULO_FIXED && seen++ == index) return d->links[i].type;
+    if (ambulo__link_has_coordinate(&d->links[i]) && seen++ == index) return d->links[i].type;
   }
   return AMBULO_FIXED;
 }

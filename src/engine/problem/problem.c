@@ -195,9 +195,8 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
                   ambulo_model_name(p->model), slots.count, AMBULO__MOST_SLOTS);
   p->channels.feet = ambulo_model_foot_count(p->model);
   p->channels.slots = slots.count;
-  ambulo_status status =
-      ambulo__plan_create_contacts(p->model, slots.link, slots.count, moment_arm(d, &slots),
-                                   r->slant, &p->allocator, &p->plan);
+  ambulo_status status = ambulo__plan_create_contacts(
+      p->model, slots.link, slots.count, moment_arm(d, &slots), r->slant, &p->allocator, &p->plan);
   return status ? status : check_undriven(p, diagnostics);
 }
 

@@ -123,7 +123,14 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   if (!ambulo__read_origin(reader, item, index)) read_dh(reader, item, link);
   ambulo__read_body(reader, item, link);
   const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
-  if (link->type != AMBULO_FIXED) {
+  const ambulo__yaml_node *coupled = ambulo__yaml_get(item, "coupled");
+  if (coupled) {
+    if (coordinate || (link->type == AMBULO_FIXED && choice == 0))
+      (void)ambulo__yaml_error(coupled, AMBULO_E_SCHEMA, NULL,
+                               "link '%s' is coupled and %s; expected a joint that moves, without "
+                               "a coordinate of its own",
+                               link->name, coordinate ? "has a coordinate" : "fixed");
+  } else if (link->type != AMBULO_FIXED) {
     read_coordinate(reader, coordinate, link, reader->place_of[AMBULO__LIST_LINKS][index]);
   } else if (coordinate && choice == 0) {
     (void)ambulo__yaml_error(coordinate, AMBULO_E_SCHEMA, NULL,
@@ -132,12 +139,14 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   ambulo__yaml_close(item);
 }
 
-/* Mirror images can be resolved once all coordinates have names. */
+/* Mirror images, and what joints follow, can be resolved once all coordinates have names. */
 static void read_mirrors(ambulo__reader *reader, const ambulo__yaml_node *list) {
   for (int i = 0, index = 0; i < reader->definition.link_count; i++) {
-    if (reader->links[i].type == AMBULO_FIXED) continue;
-    const ambulo__yaml_node *coordinate =
-        ambulo__yaml_get(ambulo__yaml_item(list, i), "coordinate");
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    const ambulo__yaml_node *coupled = ambulo__yaml_get(item, "coupled");
+    if (coupled) ambulo__read_coupling(reader, coupled, &reader->links[i]);
+    if (coupled || reader->links[i].type == AMBULO_FIXED) continue;
+    const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
     reader->coordinates[index++].mirror = ambulo__read_reference(
         reader, ambulo__yaml_get(coordinate, "mirror"), AMBULO__LIST_COORDINATES);
   }
