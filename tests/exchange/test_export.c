@@ -2,7 +2,6 @@
  * what is refused; files whole or not at all. */
 #include "mechanics/lagrangian.h"
 #include "model/model.h"
-#include "base/diagnostics.h"
 #include "ambulo/tools/export.h"
 #include "ambulo/tools/load.h"
 #include "support/fail_sites.h"
@@ -328,35 +327,6 @@ static void what_is_lost_is_told(void **state) {
   ambulo_model_free(model);
 }
 
-/* a URDF has what brakes, but no rotors; OpenSim's bodies none of it */
-static void drives(void **state) {
-  skip_without_expat();
-  const char *file = scratch_path(state, "m.urdf");
-  ambulo_model *model = walker();
-  ambulo_export_options o = options_of(AMBULO_EXPORT_URDF);
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_coordinate *knee =
-      &model->coordinates[ambulo_model_find_coordinate(model, "knee_angle_r")];
-  knee->armature = 0.25;
-  knee->damping = 0.5;
-  knee->friction = 2;
-  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, list), AMBULO_OK);
-  assert_message(list, 1, "armature of 1 coordinates is left out");
-  import_case back = import_file(file, NULL);
-  const ambulo_coordinate *c =
-      ambulo_model_coordinate(back.model, ambulo_model_find_coordinate(back.model, "knee_angle_r"));
-  assert_close(c->damping, 0.5, 0);
-  assert_close(c->friction, 2, 0);
-  assert_close(c->armature, 0, 0);
-  import_shut(&back);
-  ambulo__diagnostics_clear(list);
-  o.format = AMBULO_EXPORT_OPENSIM;
-  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, list), AMBULO_OK);
-  assert_message(list, 0, "armature, damping and friction of 1 coordinates are left out");
-  ambulo_diagnostics_free(list);
-  ambulo_model_free(model);
-}
-
 static void nothing_is_written_over(void **state) {
   ambulo_model *model = walker();
   const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
@@ -416,7 +386,6 @@ int main(void) {
       TEST(arguments),
       TEST(refusals),
       TEST(a_problem_of_another_body),
-      TEST(drives),
       TEST(what_is_lost_is_told),
       TEST(nothing_is_written_over),
       TEST(memory_may_run_out_anywhere),

@@ -259,8 +259,7 @@ static void differences_are_told_with_both_numbers(void **state) {
        "'toe_l' 0.21 m; expected the same"},
       {"feet[left].toe=[ball_l, toe_medial_l]", "the place of 'toe_lateral_r' along left"},
       {"links[shank_l].coordinate.armature=0.1",
-       "armature of 'knee_angle_r' is 0 kg m^2, that of its mirror partner 'knee_angle_l' 22.9688 "
-       "kg m^2; expected the same"},
+       "armature of 'knee_angle_r' is 0 kg m^2, that of its mirror partner 'knee_angle_l' 22.9688"},
       {"links[shank_l].coordinate.damping=2", "damping of 'knee_angle_r' is 0 N m s/rad, that of"},
       {"links[shank_l].coordinate.friction=3", "dry friction of 'knee_angle_r' is 0 N m, that of"},
   };
