@@ -153,7 +153,7 @@ static void check_internal(device_case *c) {
     const ambulo_device *v = &c->device[i];
     double tau[most_coordinates * AMBULO__LANES] = {0}, effort[most_devices * AMBULO__LANES];
     double told[most_devices * AMBULO__LANES] = {0};
-    if (v->coordinate >= 0) continue;
+    if (v->coordinate >= 0 || c->model->coupled_count > 0) continue;
     for (int lane = 0; lane < AMBULO__LANES; lane++) told[i * AMBULO__LANES + lane] = 1.0;
     ambulo__devices_apply(c->devices, c->q, c->qd, told, tau, effort, c->scratch);
     for (int a = v->link[0]; a >= 0; a = c->model->links[a].parent) {
