@@ -182,6 +182,12 @@ static ambulo_status check_asked(const job *j) {
   if (format == AMBULO_EXPORT_URDF && j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
                          "--format npz writes the motion", "a URDF cannot hold a motion");
+  for (int i = 0; i < j->model->link_count; i++)
+    if (j->model->links[i].coupled_to >= 0)
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "'%s' follows '%s': coupled joints cannot be exported",
+                           j->model->links[i].name,
+                           j->model->coordinates[j->model->links[i].coupled_to].name);
   if (j->options->problem && !same_body(j->model, j->options->problem->model))
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "the problem belongs to another body, '%s'; expected the model's",

@@ -17,6 +17,9 @@
  * left and right may be described in frames of either handedness. Feet: the points that touch the
  * ground are reflected, the two corners at one end in either order.
  *
+ * Coupled joints belong to what carries them. The body with these where they stand at some values
+ * of what they follow, the partner's value with its sign, has to be its own image as well.
+ *
  * All in the axes (forward, up, left) of model/neutral_pose.h, H = diag(1, 1, -1).
  */
 #include "model/mirror_image.h"
@@ -339,6 +342,52 @@ static void compare(comparison *c) {
   }
 }
 
+static int is_followed(const ambulo_model *model, int coordinate) {
+  for (int i = 0; i < model->link_count; i++)
+    if (model->couplings[i].to == coordinate) return 1;
+  return 0;
+}
+
+/* 1 after a message: the joints that follow coordinate i and its partner are no images. */
+static int compare_followers(comparison *c, int i, double *followed) {
+  static const double places[] = {-1.5, -0.7, -0.1, 0.2, 0.6, 1.7};
+  const ambulo_coordinate *own = &c->model->coordinates[i];
+  for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+    comparison silent = *c;
+    silent.diagnostics = NULL;
+    followed[own->mirror] = own->mirror_sign * places[k];
+    followed[i] = places[k];
+    ambulo__segments_at(&silent.segments, followed);
+    memset(c->displaced, 0, (size_t)c->model->coordinate_count + 1);
+    compare(&silent);
+    followed[i] = followed[own->mirror] = 0.0;
+    if (silent.status == AMBULO_OK) continue;
+    DIFFER(c, c->words->hint,
+           "joints that follow '%s' and '%s' are not mirror images of each other where these stand "
+           "at %g and %g",
+           own->name, c->model->coordinates[own->mirror].name, places[k],
+           own->mirror_sign * places[k]);
+    return 1;
+  }
+  return 0;
+}
+
+/* Each pair once; what is its own image with the sign turned is so at 0 alone. */
+static void compare_functions(comparison *c) {
+  const ambulo_model *model = c->model;
+  double *followed = ambulo__alloc(&c->segments.allocator, (size_t)model->coordinate_count,
+                                   sizeof *followed);
+  if (!followed) c->status = AMBULO_E_MEMORY;
+  for (int i = 0; followed && i < model->coordinate_count && !c->status; i++) {
+    const ambulo_coordinate *own = &model->coordinates[i];
+    int alone = own->mirror == i && own->mirror_sign < 0.0;
+    if (own->mirror < i || alone) continue;
+    if (is_followed(model, i) || is_followed(model, own->mirror))
+      (void)compare_followers(c, i, followed);
+  }
+  ambulo__free(&c->segments.allocator, followed);
+}
+
 ambulo_status ambulo__mirror_image_check(const ambulo_model *model,
                                          const ambulo__mirror_words *words,
                                          const ambulo_allocator *allocator,
@@ -349,6 +398,7 @@ ambulo_status ambulo__mirror_image_check(const ambulo_model *model,
   c.displaced = ambulo__alloc(&c.segments.allocator, (size_t)model->coordinate_count + 1, 1);
   if (c.displaced) {
     compare(&c);
+    if (model->coupled_count > 0 && !c.status) compare_functions(&c);
   } else {
     c.status = AMBULO_E_MEMORY;
   }
