@@ -48,6 +48,8 @@ typedef struct ambulo__tree_link {
   const char *follows, *was;
   ambulo__tree_function function;
   double reference;  /* of a joint of MuJoCo: where functions count its coordinate from, rad or m */
+  double stiffness;  /* of a spring in the joint, N m/rad or N/m; 0: none */
+  int driven;        /* 1: a motor drives it; known where loops are closed */
   ambulo__part body; /* mass 0: none */
   const char *comment; /* one line, NULL: none */
   const ambulo__xml_node *node;
@@ -163,6 +165,15 @@ void ambulo__tree_couple(ambulo__tree *tree, int link, const char *to,
 /* Where the joint of a link stands at q = 0, or (start = 1) with all coordinates at their defaults.
  */
 double ambulo__tree_stands(ambulo__tree *tree, int link, int start);
+/* A point of one link stays on a point of another. Points are in the links' frames, m. */
+typedef struct ambulo__closure {
+  int link[2];
+  double point[2][3];
+  const ambulo__xml_node *node;
+} ambulo__closure;
+/* Joints of closed loops with one motor become functions of its coordinate; notes of the others
+ * (loops.c). */
+void ambulo__close_loops(ambulo__tree *tree, const ambulo__closure *closures, int count);
 /* Once all links are there: joints that follow one that follows another follow that one; what
  * cannot follow is held. */
 void ambulo__tree_resolve(ambulo__tree *tree);

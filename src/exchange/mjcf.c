@@ -228,11 +228,57 @@ static int couple(ambulo__mjcf *m, const ambulo__xml_node *n) {
   return 1;
 }
 
+/* <equality><connect body1 body2 anchor>: the anchor, in the frame of body1, is a point of both
+ * where all joints are at their references. */
+
+static ambulo__rigid reference_place(const ambulo__tree *tree, int link) {
+  ambulo__rigid place = ambulo__rigid_identity();
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->reference);
+    if (l->type != AMBULO_FIXED) place = ambulo__rigid_times(&step, &place);
+    place = ambulo__rigid_times(&l->origin, &place);
+  }
+  return place;
+}
+
+static int read_closure(ambulo__mjcf *m, const ambulo__xml_node *n, ambulo__closure *c) {
+  static const char *const names[] = {"body1", "body2"};
+  double world[3];
+  ambulo__rigid place[2];
+  if (!ambulo__xml_is(n, "connect") || !ambulo__mjcf_flag(m, n, NULL, "active", 1)) return 0;
+  for (int i = 0; i < 2; i++) {
+    const char *body = ambulo__xml_attribute(n, names[i]);
+    c->link[i] = body ? ambulo__tree_find(m->tree, body) : -1;
+    if (c->link[i] < 0) return 0;
+    place[i] = reference_place(m->tree, c->link[i]);
+  }
+  if (!ambulo__mjcf_numbers(m, n, NULL, "anchor", 3, 3, c->point[0])) return 0;
+  c->node = n;
+  ambulo__rigid back = ambulo__rigid_inverse(&place[1]);
+  ambulo__rigid_point(&place[0], c->point[0], world);
+  ambulo__rigid_point(&back, world, c->point[1]);
+  return 1;
+}
+
+/* how many of them became functions, or notes of their own */
 static int couple_joints(ambulo__mjcf *m) {
-  int count = 0;
-  AMBULO__XML_EACH (set, m->root, "equality")
-    for (const ambulo__xml_node *n = set->first; n; n = n->next) count += couple(m, n);
-  return count;
+  int count = 0, closed = 0, capacity = 0;
+  ambulo__closure *closures = NULL;
+  AMBULO__XML_EACH (set, m->root, "equality") {
+    for (const ambulo__xml_node *n = set->first; n; n = n->next) {
+      if (!ambulo__arena_grow(m->tree->arena, &closures, closed, &capacity, sizeof *closures))
+        return count;
+      count += couple(m, n);
+      closed += read_closure(m, n, &closures[closed]);
+    }
+  }
+  for (int i = 0; i < m->tree->link_count && closed > 0; i++) {
+    ambulo__tree_link *l = &m->tree->links[i];
+    l->driven = l->coordinate.name && ambulo__mjcf_is_driven(m, l->coordinate.name);
+  }
+  ambulo__close_loops(m->tree, closures, closed);
+  return count + closed;
 }
 
 static void note_leftovers(ambulo__mjcf *m, int coupled) {

@@ -132,6 +132,7 @@ static void read_drive(reading *b, const ambulo__xml_node *joint, int first, int
     c->armature = value[0][0];
     c->damping = value[1][0];
     c->friction = value[2][0];
+    m->tree->links[link].stiffness = value[3][0];
   }
 }
 

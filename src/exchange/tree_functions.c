@@ -152,29 +152,34 @@ static void resolve(ambulo__tree *tree, ambulo__tree_link *l) {
   }
 }
 
-/* what drives a joint that follows becomes its leader's */
-static void pass_drive(ambulo__tree *tree, ambulo__tree_link *l) {
+/* What drives a joint that follows becomes its leader's; 1: it is on a curve, and is left out. */
+static int pass_drive(ambulo__tree *tree, ambulo__tree_link *l) {
   ambulo_coordinate *own = &l->coordinate;
   int leader = l->follows ? ambulo__tree_find_coordinate(tree, l->follows) : -1;
-  if (own->armature == 0.0 && own->damping == 0.0 && own->friction == 0.0) return;
+  if (own->armature == 0.0 && own->damping == 0.0 && own->friction == 0.0) return 0;
+  int left_out = leader >= 0 && !ambulo__function_is_line(&l->function);
   if (leader >= 0 && ambulo__function_is_line(&l->function)) {
     ambulo_coordinate *c = &tree->links[leader].coordinate;
     double slope = l->function.polynomial[1];
     c->armature += slope * slope * own->armature;
     c->damping += slope * slope * own->damping;
     c->friction += fabs(slope) * own->friction;
-  } else if (l->type != AMBULO_FIXED) {
-    ambulo__tree_note(tree, l->node,
-                      "armature, damping and friction of %s are left out: it follows %s on a curve",
-                      l->was ? l->was : l->name, l->follows);
   }
   own->armature = own->damping = own->friction = 0.0;
+  return left_out;
 }
 
 void ambulo__tree_resolve(ambulo__tree *tree) {
+  int left_out = 0;
   for (int i = 0; i < tree->link_count && !tree->arena->failed; i++) resolve(tree, &tree->links[i]);
   for (int i = 0; i < tree->link_count && !tree->arena->failed; i++) {
     int follows = tree->links[i].follows || tree->links[i].type == AMBULO_FIXED;
-    if (follows) pass_drive(tree, &tree->links[i]);
+    if (follows) left_out += pass_drive(tree, &tree->links[i]);
   }
+  if (left_out)
+    ambulo__tree_note(
+        tree, NULL,
+        "armature, damping and friction of %d joints that follow others on curves are "
+        "left out",
+        left_out);
 }
