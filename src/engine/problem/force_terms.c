@@ -118,7 +118,7 @@ void ambulo__force_tracking_form(const ambulo_term *term, const ambulo__term_con
 /* The centre of pressure of each foot is near a reference r, along the ground.
  *
  * Of a force f with the moment M about r, the centre of pressure is c = r + n x M / (n . f) on the
- * plane through r with the normal n (W.10). A quotient would have no value in the air and large
+ * plane through r with the normal n. A quotient would have no value in the air and large
  * ones under small forces. Weighed by its share of the body weight it is linear in force and
  * moment,
  *

@@ -63,7 +63,7 @@ static void refuse_columns(ambulo__problem_reader *reader, const ambulo__motion 
                            one->begins, one->begins);
 }
 
-/* [nodes][count][3]; NULL after an error, or for want of memory */
+/* [nodes][count][3] of what the columns have; NULL after an error */
 static const double *sample(ambulo__problem_reader *reader, const ambulo__motion *motion,
                             const followed *list, int count) {
   const double *times = ambulo__reference_times(reader);
@@ -97,7 +97,7 @@ static void close_scale(const ambulo__yaml_node *node) {
   if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) ambulo__yaml_close(node);
 }
 
-/* a millimetre and a metre are told apart by the body */
+/* no body has places that far away: they may be in millimetres */
 static void doubt_lengths(const ambulo__problem_reader *reader, const double *reference,
                           size_t count, const ambulo__yaml_node *node) {
   double far = 100.0 + fabs(reader->definition.travel);
@@ -126,7 +126,11 @@ static int named_points(ambulo__problem_reader *reader, const ambulo__yaml_node 
                         followed *list) {
   int pairs = ambulo__yaml_is(node, AMBULO__YAML_MAPPING), faults = 0;
   int count = pairs ? ambulo__yaml_pairs(node) : ambulo__yaml_items(node);
-  if (count > MOST_MARKS) count = 0;
+  if (count < 1 || count > MOST_MARKS) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "no points; expected 1 to %d, {heel_r: RHEE} or [heel_r]", MOST_MARKS);
+    return 0;
+  }
   for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item =
         pairs ? ambulo__yaml_value(node, i) : ambulo__yaml_item(node, i);
