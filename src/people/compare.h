@@ -172,6 +172,10 @@ ambulo_status ambulo__cycle_spread(ambulo__cycle *cycle, const ambulo__map_entry
                                    ambulo__cycle_side side, const double *percents, int count,
                                    double *values, double *squares, int *strides);
 
+struct ambulo__yaml_node;
+/* Joints that the body calls or counts otherwise than people do, of summary.json; may be NULL. */
+void ambulo__cycle_take_joints(ambulo__cycle *cycle, const struct ambulo__yaml_node *joints);
+
 /* The samples of a result expression for one side, [rows], SI units; by_body as of a map entry. */
 ambulo_status ambulo__cycle_samples(ambulo__cycle *cycle, const char *expression, int by_body,
                                     ambulo__cycle_side side, double *values, int *found);

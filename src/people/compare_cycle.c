@@ -2,7 +2,6 @@
 #include "people/compare.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -47,22 +46,8 @@ static ambulo_status read_times(ambulo__cycle *c) {
   return AMBULO_OK;
 }
 
-/* joints that the body calls or counts otherwise than people do */
-static void read_joints(ambulo__cycle *c, const ambulo__yaml_node *joints) {
-  int count = joints ? ambulo__yaml_pairs(joints) : 0;
-  for (int i = 0; i < count && c->joint_count < AMBULO__BODY_JOINTS; i++) {
-    const ambulo__yaml_node *node = ambulo__yaml_value(joints, i);
-    ambulo__cycle_joint *joint = &c->joint[c->joint_count++];
-    (void)snprintf(joint->name, sizeof joint->name, "%.*s", AMBULO__JOINT_NAME - 1,
-                   ambulo__yaml_key(joints, i));
-    (void)snprintf(joint->coordinate, sizeof joint->coordinate, "%.*s", AMBULO__MOTION_MAX_NAME,
-                   ambulo__yaml_text(ambulo__yaml_get(node, "coordinate")));
-    joint->sign = ambulo__yaml_number(ambulo__yaml_get(node, "sign"), 1.0) < 0.0 ? -1 : 1;
-  }
-}
-
 static void read_body(ambulo__cycle *c, const ambulo__yaml_node *body) {
-  read_joints(c, ambulo__yaml_get(body, "joints"));
+  ambulo__cycle_take_joints(c, ambulo__yaml_get(body, "joints"));
   c->mass = ambulo__yaml_number(ambulo__yaml_get(body, "mass"), 0.0);
   c->gravity = ambulo__yaml_number(ambulo__yaml_get(body, "gravity"), c->gravity);
   (void)ambulo__yaml_numbers(ambulo__yaml_get(body, "up"), 3, c->up);

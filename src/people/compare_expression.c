@@ -2,6 +2,8 @@
  * muscles.csv (compare.h). */
 #include "people/compare.h"
 
+#include "formats/yaml_node.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -129,6 +131,20 @@ static const char *direction_of(const char *name) {
   for (int i = 0; strncmp(name, "grf.", 4) == 0 && i < 3; i++)
     if (strcmp(dot + 1, directions[i]) == 0) return directions[i];
   return NULL;
+}
+
+/* joints that the body calls or counts otherwise than people do */
+void ambulo__cycle_take_joints(ambulo__cycle *c, const ambulo__yaml_node *joints) {
+  int count = joints ? ambulo__yaml_pairs(joints) : 0;
+  for (int i = 0; i < count && c->joint_count < AMBULO__BODY_JOINTS; i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_value(joints, i);
+    ambulo__cycle_joint *joint = &c->joint[c->joint_count++];
+    (void)snprintf(joint->name, sizeof joint->name, "%.*s", AMBULO__JOINT_NAME - 1,
+                   ambulo__yaml_key(joints, i));
+    (void)snprintf(joint->coordinate, sizeof joint->coordinate, "%.*s", AMBULO__MOTION_MAX_NAME,
+                   ambulo__yaml_text(ambulo__yaml_get(node, "coordinate")));
+    joint->sign = ambulo__yaml_number(ambulo__yaml_get(node, "sign"), 1.0) < 0.0 ? -1 : 1;
+  }
 }
 
 /* q.JOINT, tau.JOINT, power.JOINT of a person become those of the body; returns the sign */
