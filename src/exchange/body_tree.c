@@ -140,7 +140,7 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
   double more = repair(body.inertia);
   if (more > 0.0 && more < rounding) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
-  } else if (more > 0.0 && tree->options->repair_inertia) {
+  } else if (more > 0.0 && (tree->options->repair_inertia || tree->repair_inertia)) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
                       "%s: its inertia is impossible: %s kg m^2 were added to its moments", name,

@@ -103,11 +103,14 @@ typedef struct ambulo__tree {
   size_t mesh_points; /* of those that were read */
   ambulo__tree_point *points;
   int point_count, point_capacity;
+  ambulo__tree_point *markers; /* of motion capture: they only tell of feet */
+  int marker_count, marker_capacity;
   ambulo__tree_foot *feet;
   int foot_count, foot_capacity;
   const char **notes;
   int note_count, note_capacity;
-  int root_free; /* the importer put the whole body on six coordinates of its own */
+  int repair_inertia; /* the format's own program takes impossible inertias: they are raised */
+  int root_free;      /* the importer put the whole body on six coordinates of its own */
 } ambulo__tree;
 
 /* "what was done": kept for the file, and a warning to the caller. */
@@ -125,6 +128,7 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
 /* x >= 0 to three digits, for notes. */
 ambulo__number ambulo__three_digits(double x);
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid);
+void ambulo__tree_add_marker(ambulo__tree *tree, const char *name, int link, const double at[3]);
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]);
 /* Once gravity is known and before there are links: where there is none there is some, and it is
  * not along forward. */
@@ -218,6 +222,10 @@ char ambulo__side_of_link(const ambulo__tree *tree, int link);
 /* The sole of a link and all that is fixed to it; axes: forward, left, up. Meshes count where it
  * has no other solids. 0, with the number of meshes, if those cannot be read either. */
 int ambulo__sole_of(ambulo__tree *tree, int link, const double axes[3][3], ambulo__sole *sole);
+/* The sole of a foot without solids, from markers and toes (foot_markers.c), and a note that says
+ * so. 0: nothing tells of it. */
+int ambulo__sole_of_markers(ambulo__tree *tree, int link, const char *foot, const double axes[3][3],
+                            ambulo__sole *sole);
 /* The link with the lowest sole, of meshes where there are none of other solids, among those whose
  * names say `side`; -1 without. */
 int ambulo__lowest_link(ambulo__tree *tree, const double axes[3][3], char side);
@@ -247,6 +255,8 @@ void ambulo__find_feet(ambulo__tree *tree);
 void ambulo__find_start(ambulo__tree *tree);
 /* Partners of coordinates, left for right (mirror_pairs.c). */
 void ambulo__find_mirrors(ambulo__tree *tree);
+/* Moves a planar body into the world's mirror plane, with a note (lateral_shift.c). */
+void ambulo__tree_center(ambulo__tree *tree);
 /* The model file as text (tree_yaml.c). `source`: name of the file it came from. */
 void ambulo__tree_print(ambulo__tree *tree, const char *source, ambulo__text_buffer *text);
 

@@ -77,7 +77,8 @@ static ambulo__tree_foot *add_foot(ambulo__tree *t, const char *name) {
 static int foot_from_solids(feet *f, const char *name, int link) {
   ambulo__tree *t = f->tree;
   ambulo__sole sole;
-  if (!ambulo__sole_of(t, link, (const double(*)[3])f->axes, &sole)) {
+  if (!ambulo__sole_of(t, link, (const double(*)[3])f->axes, &sole) &&
+      !ambulo__sole_of_markers(t, link, name, (const double(*)[3])f->axes, &sole)) {
     ambulo__tree_note(t, t->links[link].node,
                       "%s: %s, so the foot '%s' has no points: give them by --heel %s=%s:X,Y,Z and "
                       "--toe",

@@ -81,6 +81,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_start(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__tree_center(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
   tree->name = model_name(tree->arena, tree->name);

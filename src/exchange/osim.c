@@ -405,6 +405,7 @@ void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {
   const ambulo__xml_node *model = ambulo__xml_child(root, "Model");
   ambulo__osim o = {.tree = tree, .xml = tree->xml, .model = model};
   tree->format = "OpenSim";
+  tree->repair_inertia = 1;
   if (!model) {
     ambulo__xml_error(tree->xml, root, AMBULO_E_SCHEMA, NULL,
                       "this OpenSim file holds no model (got <%.40s>); expected <Model>",
@@ -423,4 +424,5 @@ void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {
   if (tree->xml->status || tree->arena->failed) return;
   ambulo__osim_forces(&o);
   ambulo__osim_contacts(&o);
+  ambulo__osim_markers(&o);
 }

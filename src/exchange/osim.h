@@ -69,6 +69,7 @@ void ambulo__osim_limits(ambulo__osim *o, const ambulo__osim_coordinate *coordin
 void ambulo__osim_forces(ambulo__osim *o);
 /* Spheres that touch the ground. */
 void ambulo__osim_contacts(ambulo__osim *o);
+void ambulo__osim_markers(ambulo__osim *o); /* those on bodies */
 
 /* ----------------------------------------------------- functions (osim_functions.c) */
 

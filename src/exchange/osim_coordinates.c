@@ -190,3 +190,20 @@ void ambulo__osim_contacts(ambulo__osim *o) {
     ambulo__tree_add_solid(o->tree, &solid);
   }
 }
+
+/* ------------------------------------------------------------------------- markers */
+
+void ambulo__osim_markers(ambulo__osim *o) {
+  for (const ambulo__xml_node *n = ambulo__osim_objects(o->model, "MarkerSet"); n; n = n->next) {
+    const char *frame = ambulo__osim_text(n, "socket_parent_frame", "body");
+    if (!frame[0]) frame = ambulo__osim_text(n, "socket_parent_frame_connectee_name", "body_name");
+    if (!ambulo__xml_is(n, "Marker") || !frame[0]) continue;
+    const char *name = ambulo__xml_last_name(frame);
+    for (int b = 1; b < o->body_count; b++) { /* frames with an offset of their own are left out */
+      if (strcmp(o->bodies[b].name, name) != 0 || o->bodies[b].link < 0) continue;
+      double at[3] = {0, 0, 0};
+      if (ambulo__xml_child_vector(o->xml, n, "location", 3, 0, at))
+        ambulo__tree_add_marker(o->tree, ambulo__xml_name(n), o->bodies[b].link, at);
+    }
+  }
+}

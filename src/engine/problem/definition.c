@@ -22,6 +22,7 @@ static size_t natural(int count) {
 size_t ambulo__member_length(const ambulo__member *m, const ambulo_problem_definition *d,
                              const void *item) {
   size_t coordinates = d->model ? natural(ambulo_model_coordinate_count(d->model)) : 0;
+  size_t feet = d->model ? natural(ambulo_model_foot_count(d->model)) : 0;
   size_t nodes =
       d->intervals > 0 && d->intervals <= AMBULO__MOST_INTERVALS ? natural(d->intervals) + 1 : 0;
   switch (m->extent) {
@@ -35,8 +36,14 @@ size_t ambulo__member_length(const ambulo__member *m, const ambulo_problem_defin
     return natural(d->spline_intervals) + 1;
   case AMBULO__EACH_DEVICE:
     return natural(d->device_count);
+  case AMBULO__EACH_FOOT:
+    return feet;
   case AMBULO__EACH_NODE_COORDINATE:
     return nodes * coordinates;
+  case AMBULO__EACH_NODE_COUNTED:
+    return nodes * natural(int_at(item, m->count_at));
+  case AMBULO__EACH_NODE_FOOT:
+    return nodes * feet;
   case AMBULO__EACH_SAMPLE_COORDINATE:
     return natural(int_at(item, m->count_at)) * coordinates;
   }

@@ -187,7 +187,8 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
   if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
     return ambulo__plan_create(p->model, &p->allocator, &p->plan);
   const ambulo_ground_reaction *r = &d->ground_reaction;
-  ambulo__slots slots = ambulo__slots_of(d);
+  p->slots = ambulo__slots_of(d);
+  const ambulo__slots slots = p->slots;
   if (slots.count < 1 || slots.count > AMBULO__MOST_SLOTS)
     return REFUSE(diagnostics,
                   "ground_reaction: the feet of '%s' and its patches in contact press on the "

@@ -27,6 +27,8 @@ static const ambulo__usual rows[] = {
          .force_time_unit = 1.0,
          .cutoff = AMBULO_OFF,
          .force_cutoff = AMBULO_OFF,
+         .from = AMBULO_OFF,
+         .to = AMBULO_OFF,
          .filter_order = 4}),
     ROW(ambulo_inverse_outputs, 1, {0}),
     ROW(ambulo_muscle_options, 1,
