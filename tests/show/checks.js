@@ -313,6 +313,13 @@
     for (const own of window.own) nearOwn(own);
     check("how near they are is said", /places are within [\d.]+ mm, angles within [\d.]+°/.test(words()),
       $("precision").textContent);
+  } else if (kind === "axes") {
+    await frame();
+    const chosen = (label) => document.querySelector(`#study select[aria-label="${label}"]`).selectedOptions[0].textContent;
+    check("the axis with most effect is across", chosen("across") === "mass", chosen("across"));
+    check("what varies most with it is up", chosen("up") === "objective", chosen("up"));
+    check("an axis that hardly matters is no shade", chosen("shade") === "none", chosen("shade"));
+    check("lines along it alone", document.querySelectorAll(".join").length === 6);
   } else if (kind === "front") {
     await frame();
     const { front, cases } = globalThis.ambulo.study, on = document.querySelectorAll(".dot:not(.off)").length;
@@ -335,6 +342,11 @@
     check("the clock goes", clock() > 0.1);
     check("no view is offered", ![...document.querySelectorAll("[data-view]")].some(shown));
   }
+  // on a phone too: nothing stands beyond the screen, nor has to be pushed into it, but for tables
+  const beyond = [...document.querySelectorAll("header *, .shows *, .bar *, .tabs *")].filter((n) => shown(n)
+    && (n.getBoundingClientRect().right > innerWidth + 1 || n.scrollWidth > n.clientWidth + 1 && n.matches("div")));
+  check("all of it fits into the screen", document.documentElement.scrollWidth <= innerWidth && beyond.length === 0,
+    beyond.map((n) => n.outerHTML.slice(0, 90)));
   const asked = performance.getEntriesByType("resource").filter((r) => !/^(data|blob):/.test(r.name));
   check("asks the network for nothing", asked.length === 0, asked.map((r) => r.name));
   check("no error, no warning", window.faults.length === 0, window.faults.join(" | "));
