@@ -171,10 +171,12 @@ static void draw_box(const instant *w, const double middle[3], const double size
                             CARRIED_COLOR);
 }
 
-static void draw_rod(const instant *w, const ambulo__film_rod *rod) {
+static void draw_rod(const instant *w, double time, const ambulo__film_rod *rod) {
   double ends[2][3], middle[3];
-  for (int e = 0; e < 2; e++) place_of(w, rod->point[e], ends[e]);
-  for (int i = 0; i < 3; i++) middle[i] = 0.5 * (ends[0][i] + ends[1][i]);
+  instant then = *w;
+  then.at = ambulo__film_time_of(w->s, fmin(fmax(time, rod->from), rod->to));
+  for (int e = 0; e < 2; e++) place_of(&then, rod->point[e], ends[e]);
+  for (int i = 0; i < 3; i++) middle[i] = 0.5 * (ends[0][i] + ends[1][i]) + rod->center[i];
   if (rod->radius > 0.0)
     ambulo__canvas_capsule(w->canvas, ends[0], ends[1], rod->radius, DEVICE_COLOR, 0);
   else
@@ -219,6 +221,6 @@ void ambulo__film_draw(const ambulo__film_scene *s, double time, int period, amb
                            POST_COLOR, 0);
   draw_bones(&w, 0);
   for (int i = 0; i < s->feet; i++) draw_shoe(&w, &s->foot[i]);
-  for (int i = 0; i < s->rods; i++) draw_rod(&w, &s->rod[i]);
+  for (int i = 0; i < s->rods; i++) draw_rod(&w, time, &s->rod[i]);
   for (int i = 0; i < s->forces; i++) draw_force(&w, &s->force[i]);
 }

@@ -87,7 +87,8 @@ static void read_worn(ambulo__film_scene *s, const ambulo__yaml_node *item) {
   int from = point_at(s, ambulo__yaml_require(item, "from"));
   const ambulo__yaml_node *to = ambulo__yaml_get(item, "to");
   const ambulo__yaml_node *hinge = ambulo__yaml_get(item, "hinge");
-  ambulo__film_rod rod = {.point = {from, from}, .size = {0.1, 0.14, 0.2}};
+  ambulo__film_rod rod = {
+      .point = {from, from}, .size = {0.1, 0.14, 0.2}, .from = -INFINITY, .to = INFINITY};
   if (load) {
     (void)ambulo__yaml_numbers(ambulo__yaml_get(item, "size"), 3, rod.size);
     s->rod[s->rods++] = rod;
@@ -102,7 +103,10 @@ static void read_worn(ambulo__film_scene *s, const ambulo__yaml_node *item) {
 
 static void read_held(ambulo__film_scene *s, const ambulo__yaml_node *item) {
   ambulo__film_rod rod = {.point = {point_at(s, ambulo__yaml_require(item, "one")),
-                                    point_at(s, ambulo__yaml_require(item, "other"))}};
+                                    point_at(s, ambulo__yaml_require(item, "other"))},
+                          .from = number_at(item, "from", -INFINITY),
+                          .to = number_at(item, "to", INFINITY)};
+  (void)ambulo__yaml_numbers(ambulo__yaml_get(item, "center"), 3, rod.center);
   (void)ambulo__yaml_numbers(ambulo__yaml_get(item, "size"), 3, rod.size);
   for (int i = 0; i < 3; i++)
     if (!(rod.size[i] > 0.0)) rod.size[i] = 0.12;

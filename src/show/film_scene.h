@@ -27,10 +27,12 @@ typedef struct ambulo__film_force {
   double *force[3], *pressure[3]; /* [samples] N, m */
 } ambulo__film_force;
 
-/* Rods: a cable, or the two bars of a brace; radius 0: a box that is carried, of these sizes. */
+/* A rod between two points: a cable, or a bar of a brace. Radius 0: a box that is carried, of these
+ * sizes, about `center` from their middle; before `from` and after `to` (s) it is where it is then.
+ */
 typedef struct ambulo__film_rod {
   int point[2];
-  double radius, size[3];
+  double radius, size[3], center[3], from, to;
 } ambulo__film_rod;
 
 /* A triangle that stands still. */
