@@ -17,7 +17,7 @@ enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };
 
 typedef struct view {
   int terminal, quiet, warned;
-  int refused;    /* 1: the first case without a result is told */
+  int refused;    /* 1: the first case without a result is named */
   double line_at; /* s: when the last plain line was printed */
   int line_done;
 } view;
@@ -270,7 +270,7 @@ const ambulo__cli_command ambulo__cli_batch = {
     .description =
         "Solves every case of the sweep in a process of its own and keeps results and records in\n"
         "the folder. The same command resumes after an interruption. Ctrl-C finishes the running\n"
-        "cases; a second one stops at once. The first case that ends without a result is told at\n"
+        "cases; a second one stops at once. The first case that ends without a result is named at\n"
         "once, with its error. Exit code 0: all cases solved; 1: some have no valid solution, or\n"
         "no result; 3: the folder was filled from other inputs; 4: the folder is locked or cannot "
         "be\n"

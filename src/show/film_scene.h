@@ -1,8 +1,5 @@
 /* show/film_scene.h - a scene that is read back, to be drawn at any time (show/scene.h writes it;
- * keys: docs/results.md).
- *
- * Reading order: canvas.h, canvas.c, film_scene.c, film_draw.c, film.c.
- */
+ * keys: docs/results.md). */
 #ifndef AMBULO_SHOW_FILM_SCENE_H
 #define AMBULO_SHOW_FILM_SCENE_H
 
