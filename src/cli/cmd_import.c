@@ -13,6 +13,8 @@ static void read_options(const ambulo__cli_input *input, ambulo_import_options *
   o->heels = ambulo__cli_values(input, "heel", &o->heel_count);
   o->toes = ambulo__cli_values(input, "toe", &o->toe_count);
   o->name = ambulo__cli_value(input, "name");
+  o->forward = ambulo__cli_value(input, "forward");
+  o->symmetrize = ambulo__cli_flag(input, "symmetrize");
   o->unlock = ambulo__cli_flag(input, "unlock");
   o->repair_inertia = ambulo__cli_flag(input, "repair-inertia");
   o->overwrite = ambulo__cli_flag(input, "force");
@@ -42,12 +44,16 @@ static const ambulo__cli_option options_table[] = {
      "named world)"},
     {"foot", 0, "FOOT=LINK",
      "take the corners of a foot from the geometry of a link\n(default: links named foot, sole or "
-     "calcn, else the lowest)"},
+     "calcn, else the lowest of each leg)"},
     {"heel", 0, "FOOT=LINK:X,Y,Z", "heel of a foot, in m; a second corner follows another ':'"},
     {"toe", 0, "FOOT=LINK:X,Y,Z", "toe of a foot, likewise"},
     {"pose", 0, "COORDINATE=VALUE",
      "value, in rad or m, at which splines and coupled joints are held\n(default: the source's "
      "default pose)"},
+    {"forward", 0, "DIRECTION",
+     "where the body goes: x, -x, y, -y, z, -z or X,Y,Z\n(default: as left and right say, else "
+     "heels and toes)"},
+    {"symmetrize", 0, NULL, "make left and right exact mirror images, where they differ by little"},
     {"unlock", 0, NULL, "free the coordinates that the source locks"},
     {"repair-inertia", 0, NULL, "increase moments of inertia that are impossible"},
 };
@@ -64,7 +70,8 @@ const ambulo__cli_command ambulo__cli_import = {
         "limits, feet, left and right. What cannot be carried over is named in a warning and in "
         "the\n"
         "file, with what was done instead. Nothing is written if the source is invalid. Feet are\n"
-        "found by their names, else as the lowest links; --foot, --heel and --toe name them.\n"
+        "found by their names, else as the lowest links of legs; --foot, --heel and --toe name\n"
+        "them.\n"
         "See docs/guide-import.md.",
     .example =
         "ambulo import robot.urdf -o robot.yaml\n"

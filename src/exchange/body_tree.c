@@ -1,8 +1,9 @@
 /* exchange/body_tree.c - links, bodies, names and notes of a tree (body_tree.h).
  *
- * Reading order: import.c, body_tree.h, body_tree.c, rigid.h, xml.h; urdf.c; osim.c, osim_bodies.c,
- * osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, foot_solids.c, mirror_pairs.c; tree_yaml.c.
- * The way back: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
+ * Reading order: import.c, body_tree.h, body_tree.c, tree_links.c, rigid.h, xml.h; urdf.c; osim.c,
+ * osim_bodies.c, osim_functions.c; mjcf.c, mjcf_bodies.c; feet.c, legs.c, foot_solids.c,
+ * foot_meshes.c, start_pose.c; mirror_pairs.c, symmetrize.c; tree_yaml.c. The way back: export.h,
+ * bodies.c, motion_source.c, loads.c, export.c, model_text.c, npz.c.
  */
 #include "exchange/body_tree.h"
 
@@ -14,9 +15,11 @@
 #include <string.h>
 
 static const double rounding = 1e-15; /* kg m^2: of files that were written by programs */
-static const double LIGHTEST = 1e-9;  /* kg: a body of a model file */
-static const double FARTHEST = 1e4;   /* m: what is larger or farther away is no part of a body */
-enum { MOST_SOLIDS = 2048 };          /* more than a body has, few enough to compare in pairs */
+/* kg, kg m^2: placeholders that weigh nothing, whose inertia may be mended unasked */
+static const double trifle = 1e-3, trifling = 1e-5;
+static const double LIGHTEST = 1e-9; /* kg: a body of a model file */
+static const double FARTHEST = 1e4;  /* m: what is larger or farther away is no part of a body */
+enum { MOST_SOLIDS = 2048 };         /* more than a body has, few enough to compare in pairs */
 
 void ambulo__tree_note(ambulo__tree *tree, const ambulo__xml_node *node, const char *format, ...) {
   va_list arguments;
@@ -140,7 +143,8 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
   double more = repair(body.inertia);
   if (more > 0.0 && more < rounding) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
-  } else if (more > 0.0 && (tree->options->repair_inertia || tree->repair_inertia)) {
+  } else if (more > 0.0 && (tree->options->repair_inertia || tree->repair_inertia ||
+                            (body.mass <= trifle && more <= trifling))) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
                       "%s: its inertia is impossible: %s kg m^2 were added to its moments", name,
@@ -192,6 +196,7 @@ static void drop_limits(double limits[2]) {
 }
 
 void ambulo__tree_gravity(ambulo__tree *tree) {
+  static const double x[3] = {1, 0, 0};
   double *g = tree->gravity, across[3];
   double size = fmax(fabs(g[0]), fmax(fabs(g[1]), fabs(g[2])));
   if (!(size >= LEAST_GRAVITY && size <= LARGEST_GRAVITY)) {
@@ -199,9 +204,11 @@ void ambulo__tree_gravity(ambulo__tree *tree) {
                       ambulo__number_text(size).text, tree->up);
     for (int i = 0; i < 3; i++) g[i] = tree->up - 'x' == i ? -9.81 : 0.0;
   }
-  ambulo__cross(g, tree->forward, across);
+  ambulo__cross(g, x, across);
   if (ambulo__normalize(across) > 1e-3 * size) return;
-  for (int i = 0; i < 3; i++) tree->forward[i] = i == 1; /* x is up: y is as good as z */
+  ambulo__cross(g, tree->forward, across); /* else it is settled (import.c) */
+  int along = ambulo__normalize(across) <= 1e-3 * size;
+  for (int i = 0; i < 3 && along; i++) tree->forward[i] = i == 1; /* y is as good as z */
   ambulo__tree_note(tree, NULL, "gravity is along x in the source: forward is y here");
 }
 
@@ -254,39 +261,6 @@ int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
                     "the axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
                     joint);
   return 0;
-}
-
-void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
-  for (int i = 0; i < 3; i++) {
-    axes[2][i] = -tree->gravity[i];
-    axes[0][i] = tree->forward[i];
-  }
-  (void)ambulo__normalize(axes[2]);
-  ambulo__cross(axes[2], axes[0], axes[1]);
-  (void)ambulo__normalize(axes[1]);
-  ambulo__cross(axes[1], axes[2], axes[0]);
-}
-
-static ambulo__rigid place_of(ambulo__tree *tree, int link, int start) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    double value = l->type == AMBULO_FIXED ? 0.0 : ambulo__tree_stands(tree, i, start);
-    if (value != 0.0) {
-      ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, value);
-      place = ambulo__rigid_times(&step, &place);
-    }
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
-}
-
-ambulo__rigid ambulo__tree_place(ambulo__tree *tree, int link) {
-  return place_of(tree, link, 0);
-}
-
-ambulo__rigid ambulo__tree_start_place(ambulo__tree *tree, int link) {
-  return place_of(tree, link, 1);
 }
 
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback) {

@@ -70,6 +70,7 @@ typedef struct ambulo__tree_solid {
   ambulo__shape shape;
   ambulo__rigid at; /* in the link's frame */
   double size[3];
+  int seen;           /* it touches nothing: only seen, counts where nothing else does */
   ambulo__mesh *mesh; /* of a mesh, shared by all that name the file; NULL: no file is named */
   double scale[3];    /* of the mesh's points */
 } ambulo__tree_solid;
@@ -83,6 +84,7 @@ typedef struct ambulo__tree_point {
 /* Corners are points of the tree; the second -1 in a planar foot. */
 typedef struct ambulo__tree_foot {
   const char *name;
+  int link; /* that it is, with all that is fixed to it */
   int heel[2], toe[2], heel_center, toe_center;
 } ambulo__tree_foot;
 
@@ -110,6 +112,7 @@ typedef struct ambulo__tree {
   const char **notes;
   int note_count, note_capacity;
   int repair_inertia; /* the format's own program takes impossible inertias: they are raised */
+  int trunk;          /* of ambulo__tree_trunk, once the links are read; -1: none */
   int root_free;      /* the importer put the whole body on six coordinates of its own */
 } ambulo__tree;
 
@@ -148,8 +151,8 @@ int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */
 int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
 /* Placement of a link in the world at q = 0, and with all coordinates at their defaults. */
-ambulo__rigid ambulo__tree_place(ambulo__tree *tree, int link);
-ambulo__rigid ambulo__tree_start_place(ambulo__tree *tree, int link);
+ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
+ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link);
 /* Unit vectors along forward, left and up. */
 void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */
@@ -159,7 +162,8 @@ double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, doubl
 
 ambulo__tree_function ambulo__tree_line(double slope, double offset);
 int ambulo__function_is_line(const ambulo__tree_function *function);
-double ambulo__function_value(ambulo__tree *tree, const ambulo__tree_function *function, double x);
+double ambulo__function_value(const ambulo__tree *tree, const ambulo__tree_function *function,
+                              double x);
 /* *out = g(f(x)); 0 where that is no spline and no polynomial of degree 4, or without memory. */
 int ambulo__function_of_function(ambulo__tree *tree, const ambulo__tree_function *g,
                                  const ambulo__tree_function *f, ambulo__tree_function *out);
@@ -168,7 +172,7 @@ void ambulo__tree_couple(ambulo__tree *tree, int link, const char *to,
                          const ambulo__tree_function *function);
 /* Where the joint of a link stands at q = 0, or (start = 1) with all coordinates at their defaults.
  */
-double ambulo__tree_stands(ambulo__tree *tree, int link, int start);
+double ambulo__tree_stands(const ambulo__tree *tree, int link, int start);
 /* A point of one link stays on a point of another. Points are in the links' frames, m. */
 typedef struct ambulo__closure {
   int link[2];
@@ -205,30 +209,65 @@ void ambulo__chain_free(ambulo__chain *chain, const char *prefix);
 /* Three hinges through one point about x, y and z of what was before: NAME_x, NAME_y, NAME_z. */
 void ambulo__chain_ball(ambulo__chain *chain, const char *name, int *first);
 
-/* ------------------------------------------------- solids of feet (foot_solids.c) */
+/* ---------------------------------------------- links that move (tree_links.c) */
+
+/* The link that a link is fixed to, itself where it moves or is the first. */
+int ambulo__tree_leader(const ambulo__tree *tree, int link);
+/* Whether no joint hangs on a link or on what is fixed to it. */
+int ambulo__tree_is_end(const ambulo__tree *tree, int link);
+/* Whether a link is another, or hangs on it. */
+int ambulo__tree_hangs_on(const ambulo__tree *tree, int link, int above);
+/* Of the body that weighs most the first link that has a mass, or on which several joints hang:
+ * before it are the coordinates of the whole body. -1: none */
+int ambulo__tree_trunk(const ambulo__tree *tree);
+/* Placement of a link in the world at q = 0, with `start` 1 in the start pose: defaults of all but
+ * the coordinates of the whole body. */
+ambulo__rigid ambulo__tree_pose_of(const ambulo__tree *tree, int link, int start);
+/* Mass, centre of mass and inertia of a link and all that is fixed to it, in its frame. */
+void ambulo__tree_whole(const ambulo__tree *tree, int leader, ambulo__part *body);
+
+/* ---------------------------------- solids of feet (foot_meshes.c, foot_solids.c) */
 
 /* The mesh of a solid, at its own size. None without memory, or where `file` is NULL or empty. */
 void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid *solid);
+/* Reads the points of a mesh, once; it has none where that cannot be. */
+void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh);
 
-/* Where the solids of a link would touch the ground at q = 0. */
+/* Where the solids of a link touch the ground. */
 typedef struct ambulo__sole {
   double along[2], across[2], height; /* m, along forward, left and up of the world */
-  int solids, meshes;                 /* how many were read, and were not */
+  int meshes;                         /* it has some */
+  int start, is_point;                /* measured in the start pose, not at q = 0; has no length */
 } ambulo__sole;
 
-/* 'l', 'r' or 0: what the name of a link says; of lfoot only if there is an rfoot. */
-char ambulo__side_of_link(const ambulo__tree *tree, int link);
-
-/* The sole of a link and all that is fixed to it; axes: forward, left, up. Meshes count where it
- * has no other solids. 0, with the number of meshes, if those cannot be read either. */
+/* The sole of a link and all that is fixed to it; axes: forward, left, up. What touches counts
+ * before what is only seen, solids before meshes. 0, with `meshes`, if there is nothing to read. */
 int ambulo__sole_of(ambulo__tree *tree, int link, const double axes[3][3], ambulo__sole *sole);
 /* The sole of a foot without solids, from markers and toes (foot_markers.c), and a note that says
  * so. 0: nothing tells of it. */
 int ambulo__sole_of_markers(ambulo__tree *tree, int link, const char *foot, const double axes[3][3],
                             ambulo__sole *sole);
-/* The link with the lowest sole, of meshes where there are none of other solids, among those whose
- * names say `side`; -1 without. */
-int ambulo__lowest_link(ambulo__tree *tree, const double axes[3][3], char side);
+/* Height of the lowest point of that in the start pose, toes on a joint of their own left out. */
+int ambulo__height_of(ambulo__tree *tree, int leader, const double axes[3][3], double *height);
+/* The lower side of a box that has its mass and inertia; 0 where that is longer than `longest`. */
+int ambulo__sole_of_inertia(const ambulo__tree *tree, int link, const double axes[3][3],
+                            double longest, ambulo__sole *sole);
+
+/* ------------------------------------------------ legs, and where they go (legs.c) */
+
+/* A limb that may be a leg: the foot at its end. */
+typedef struct ambulo__leg {
+  const char *name; /* of the foot */
+  int link;
+} ambulo__leg;
+
+/* The links that are feet; how many, 0: none. *legless: the body's lowest link is no limb's. */
+int ambulo__find_legs(ambulo__tree *tree, const double axes[3][3], ambulo__leg *legs, int most,
+                      int *legless);
+/* Forward by what names say of left and right, else by the feet: changes tree->forward. */
+void ambulo__find_forward(ambulo__tree *tree);
+/* Warns of feet that are not the lowest link of their side. */
+void ambulo__check_feet(ambulo__tree *tree, const double axes[3][3]);
 
 /* ------------------------------------ left and right in names (mirror_pairs.c) */
 
@@ -239,6 +278,16 @@ char ambulo__side_of(const char *name);
 int ambulo__other_side(const char *name, char *text, size_t size);
 /* The name with the letter l or r at one place exchanged; 0 where there is another. */
 int ambulo__flip_letter(const char *name, size_t at, char *text, size_t size);
+
+/* The link whose coordinate has the other side's name, and moves alike; itself where there is none.
+ */
+int ambulo__partner_coordinate(const ambulo__tree *tree, int link);
+/* The link whose name is the other side's; -1: none. */
+int ambulo__partner_link(const ambulo__tree *tree, int link);
+/* 'l', 'r' or 0: what the name of a link says; of lfoot only if there is an rfoot. */
+char ambulo__side_of_link(const ambulo__tree *tree, int link);
+/* The foot that takes the place of another in the mirror image, by name; -1: none. */
+int ambulo__tree_mirror_foot(const ambulo__tree *tree, int foot);
 
 /* -------------------------------------------------------------- steps of an import */
 
@@ -251,13 +300,16 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
 
 /* Heels and toes by options and from solids (feet.c). */
 void ambulo__find_feet(ambulo__tree *tree);
-/* Defaults within their ranges, the feet on the ground (feet.c). */
+/* Defaults within their ranges, the feet on the ground (start_pose.c). */
 void ambulo__find_start(ambulo__tree *tree);
 /* Partners of coordinates, left for right (mirror_pairs.c). */
 void ambulo__find_mirrors(ambulo__tree *tree);
 /* Moves a planar body into the world's mirror plane, with a note (lateral_shift.c). */
 void ambulo__tree_center(ambulo__tree *tree);
+/* Left and right made exact images of each other; an error where they differ by too much
+ * (symmetrize.c). */
+void ambulo__symmetrize(ambulo__tree *tree);
 /* The model file as text (tree_yaml.c). `source`: name of the file it came from. */
-void ambulo__tree_print(ambulo__tree *tree, const char *source, ambulo__text_buffer *text);
+void ambulo__tree_print(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text);
 
 #endif

@@ -1,9 +1,10 @@
 /* exchange/feet.c - heels and toes: by options, else from the solids of links.
  *
- * A foot is a link with all that is fixed to it. Of its solids the lowest points at q = 0 are
- * taken, and of those within 2 cm above the lowest one the rectangle along forward and left: its
- * back edge is the heel, its front edge the toe, all at the lowest height. In a planar body each
- * edge is one point.
+ * A foot is a link with all that is fixed to it. Of its solids the lowest points are taken, and of
+ * those within 2 cm above the lowest one the rectangle along forward and left: its back edge is the
+ * heel, its front edge the toe, all at the lowest height. In a planar body each edge is one point.
+ *
+ * A foot that is a ball, and those of a body with more than two, are point feet: the lowest point.
  */
 #include "base/numtext.h"
 #include "base/arithmetic.h"
@@ -13,14 +14,17 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
-enum { MOST_FEET = 8 };
+enum { MOST_FEET = 32 };
 
 typedef struct feet {
   ambulo__tree *tree;
   double axes[3][3]; /* forward, left, up */
 } feet;
+
+typedef struct spot {
+  int link, start;
+} spot;
 
 /* ---------------------------------------------------------------------- geometry */
 
@@ -38,23 +42,23 @@ static int is_spatial(const feet *f) {
   return 0;
 }
 
-/* a point at (forward, left, up) of the world on a link */
-static int put(feet *f, const char *foot, const char *part, int link, const double at[3]) {
+/* a point at (forward, left, up) of the world on a link, at q = 0 or in the start pose */
+static int put(feet *f, const char *foot, const char *part, spot on, const double at[3]) {
   double world[3], local[3];
   for (int i = 0; i < 3; i++)
     world[i] = at[0] * f->axes[0][i] + at[1] * f->axes[1][i] + at[2] * f->axes[2][i];
-  ambulo__rigid place = ambulo__tree_place(f->tree, link);
+  ambulo__rigid place = ambulo__tree_pose_of(f->tree, on.link, on.start);
   ambulo__rigid back = ambulo__rigid_inverse(&place);
   ambulo__rigid_point(&back, world, local);
   return ambulo__tree_add_point(
-      f->tree, ambulo__arena_print(f->tree->arena, "%.40s_%s", foot, part), link, local);
+      f->tree, ambulo__arena_print(f->tree->arena, "%.40s_%s", foot, part), on.link, local);
 }
 
 /* one end of a foot: the middle, and in space its two corners, the lateral one first */
-static int put_edge(feet *f, const char *foot, const char *part, int link, double along,
+static int put_edge(feet *f, const char *foot, const char *part, spot on, double along,
                     const double across[2], double height, int spatial, int corners[2]) {
   const double middle[3] = {along, 0.5 * (across[0] + across[1]), height};
-  int center = put(f, foot, part, link, middle);
+  int center = put(f, foot, part, on, middle);
   corners[0] = center;
   corners[1] = -1;
   if (!spatial) return center;
@@ -62,40 +66,80 @@ static int put_edge(feet *f, const char *foot, const char *part, int link, doubl
   for (int k = 0; k < 2; k++) {
     const double at[3] = {along, across[left ? 1 - k : k], height};
     const char *name = ambulo__arena_print(f->tree->arena, "%s_%s", part, k ? "medial" : "lateral");
-    corners[k] = put(f, foot, name, link, at);
+    corners[k] = put(f, foot, name, on, at);
   }
   return center;
 }
 
-static ambulo__tree_foot *add_foot(ambulo__tree *t, const char *name) {
+static ambulo__tree_foot *add_foot(ambulo__tree *t, const char *name, int link) {
   if (!ambulo__arena_grow(t->arena, &t->feet, t->foot_count, &t->foot_capacity, sizeof *t->feet))
     return NULL;
-  t->feet[t->foot_count] = (ambulo__tree_foot){.name = name};
+  t->feet[t->foot_count] = (ambulo__tree_foot){.name = name, .link = link};
   return &t->feet[t->foot_count++];
 }
 
-static int foot_from_solids(feet *f, const char *name, int link) {
-  ambulo__tree *t = f->tree;
-  ambulo__sole sole;
-  if (!ambulo__sole_of(t, link, (const double(*)[3])f->axes, &sole) &&
-      !ambulo__sole_of_markers(t, link, name, (const double(*)[3])f->axes, &sole)) {
-    ambulo__tree_note(t, t->links[link].node,
-                      "%s: %s, so the foot '%s' has no points: give them by --heel %s=%s:X,Y,Z and "
-                      "--toe",
-                      t->links[link].name,
-                      sole.meshes   ? "its geometry is a mesh that could not be read"
-                      : sole.solids ? "its geometry touches the ground in one point"
-                                    : "it has no geometry that touches the ground",
-                      name, name, t->links[link].name);
-    return 0;
+static double height_of_body(const feet *f) {
+  double lowest = INFINITY, top = -INFINITY;
+  for (int i = 0; i < f->tree->link_count; i++) {
+    ambulo__rigid place = ambulo__tree_pose_of(f->tree, i, 1);
+    double at = ambulo__dot(f->axes[2], place.p);
+    lowest = fmin(lowest, at);
+    top = fmax(top, at);
   }
+  return fmax(0.0, top - lowest);
+}
+
+/* the sole of a foot, or a box in its stead; 0 after a note */
+static int find_sole(feet *f, const char *name, int link, ambulo__sole *sole) {
+  ambulo__tree *t = f->tree;
+  const char *body = t->links[link].name;
+  if (ambulo__sole_of(t, link, (const double(*)[3])f->axes, sole)) return 1;
+  int meshes = sole->meshes;
+  if (ambulo__sole_of_markers(t, link, name, (const double(*)[3])f->axes, sole)) return 1;
+  const char *why = meshes ? "its geometry is a mesh that could not be read"
+                           : "it has no geometry that touches the ground";
+  ambulo__sole box;
+  if (ambulo__sole_of_inertia(t, link, (const double(*)[3])f->axes, 0.4 * height_of_body(f),
+                              &box)) {
+    ambulo__tree_note(t, t->links[link].node,
+                      "%s: %s: the foot '%s' is guessed from its inertia, %s m long; give --heel "
+                      "%s=%s:X,Y,Z and --toe",
+                      body, why, name, ambulo__three_digits(box.along[1] - box.along[0]).text, name,
+                      body);
+    *sole = box;
+    return 1;
+  }
+  ambulo__tree_note(t, t->links[link].node,
+                    "%s: %s, so the foot '%s' has no points: give them by --heel %s=%s:X,Y,Z and "
+                    "--toe",
+                    body, why, name, name, body);
+  return 0;
+}
+
+/* a foot that is one point, in the middle of its sole */
+static void put_point(feet *f, spot on, const ambulo__sole *sole, ambulo__tree_foot *foot) {
+  const double middle[3] = {0.5 * (sole->along[0] + sole->along[1]),
+                            0.5 * (sole->across[0] + sole->across[1]), sole->height};
+  foot->heel_center = foot->toe_center = put(f, foot->name, "point", on, middle);
+  foot->heel[0] = foot->toe[0] = foot->heel_center;
+  foot->heel[1] = foot->toe[1] = -1;
+}
+
+static int foot_from_solids(feet *f, const char *name, int link, int point) {
+  ambulo__sole sole;
+  if (!find_sole(f, name, link, &sole)) return 0;
   int spatial = is_spatial(f) && sole.across[1] - sole.across[0] > 1e-3;
-  ambulo__tree_foot *foot = add_foot(t, name);
+  ambulo__tree_foot *foot = add_foot(f->tree, name, link);
   if (!foot) return 0;
+  spot on = {link, sole.start};
+  if (point || sole.is_point) {
+    put_point(f, on, &sole, foot);
+    return 1;
+  }
   foot->heel_center =
-      put_edge(f, name, "heel", link, sole.along[0], sole.across, sole.height, spatial, foot->heel);
+      put_edge(f, name, "heel", on, sole.along[0], sole.across, sole.height, spatial, foot->heel);
   foot->toe_center =
-      put_edge(f, name, "toe", link, sole.along[1], sole.across, sole.height, spatial, foot->toe);
+      put_edge(f, name, "toe", on, sole.along[1], sole.across, sole.height, spatial, foot->toe);
   return 1;
 }
 
@@ -188,49 +232,23 @@ static void feet_by_hand(ambulo__tree *t) {
                         "--heel %.60s has no --toe; expected --toe %.40s=LINK:X,Y,Z", text, name);
       return;
     }
-    ambulo__tree_foot *foot = add_foot(t, name);
+    ambulo__tree_foot *foot = add_foot(t, name, -1);
     if (!foot || !put_by_hand(t, "heel", text, name, &foot->heel_center, foot->heel) ||
         !put_by_hand(t, "toe", toe, name, &foot->toe_center, foot->toe))
       return;
+    foot->link = t->points[foot->heel_center].link;
   }
 }
 
 /* ------------------------------------------------------------------- by themselves */
 
-static int says_foot(const char *name) {
-  static const char *const words[] = {"foot", "sole", "calcn"};
-  for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-    for (const char *c = name; *c; c++)
-      if (strncasecmp(c, words[i], strlen(words[i])) == 0) return 1;
-  return 0;
-}
+enum { LONG_FEET = 2 }; /* a body with more of them stands on points */
 
-static int has_foot(const ambulo__tree *t, const char *name) {
-  for (int i = 0; i < t->foot_count; i++)
-    if (strcmp(t->feet[i].name, name) == 0) return 1;
-  return 0;
-}
-
-/* The link of one side that is a foot: named so, and with a sole if one of those has one; -1. */
-static int guess(const feet *f, char side) {
-  ambulo__tree *t = f->tree;
-  int best = -1;
-  for (int i = 0; i < t->link_count; i++) {
-    ambulo__sole sole;
-    if (!says_foot(t->links[i].name) || ambulo__side_of_link(t, i) != side) continue;
-    int has = ambulo__sole_of(t, i, (const double(*)[3])f->axes, &sole);
-    if (has) return i;
-    if (best < 0) best = i;
-  }
-  return best >= 0 ? best : ambulo__lowest_link(t, (const double(*)[3])f->axes, side);
-}
-
-static void guess_feet(feet *f) {
-  static const char *const names[] = {"right", "left"};
-  for (int k = 0; k < 2; k++) {
-    int link = has_foot(f->tree, names[k]) ? -1 : guess(f, names[k][0]);
-    if (link >= 0) (void)foot_from_solids(f, names[k], link);
-  }
+static void guess_feet(feet *f, int *legless) {
+  ambulo__leg legs[MOST_FEET];
+  int count = ambulo__find_legs(f->tree, (const double(*)[3])f->axes, legs, MOST_FEET, legless);
+  for (int k = 0; k < count; k++)
+    (void)foot_from_solids(f, legs[k].name, legs[k].link, count > LONG_FEET);
 }
 
 /* Lifts a root of the importer's own so that the lowest point of the feet is on the ground. */
@@ -245,22 +263,37 @@ static void stand(feet *f) {
   }
   if (!t->root_free || !isfinite(lowest) || t->link_count == 0) return;
   for (int i = 0; i < 3; i++) t->links[0].origin.p[i] -= lowest * f->axes[2][i];
+  for (int i = t->trunk; i >= 0; i = t->links[i].parent) { /* the source's start stays */
+    ambulo_coordinate *c = &t->links[i].coordinate;
+    double up = ambulo__dot(t->links[i].axis, f->axes[2]);
+    if (t->links[i].type == AMBULO_PRISMATIC && fabs(up) > 0.999 && c->default_value != 0.0)
+      c->default_value += lowest * up;
+  }
 }
 
-static int is_end(const ambulo__tree *t, int link) {
+static int is_last(const ambulo__tree *t, int link) {
   for (int i = 0; i < t->link_count; i++)
     if (t->links[i].parent == link) return 0;
   return 1;
 }
 
 /* how to say what the source does not, with the links that may be feet */
-static void note_no_feet(ambulo__tree *t) {
+static void note_no_feet(ambulo__tree *t, int legless) {
   char ends[240] = "";
   size_t used = 0;
   for (int i = 0; i < t->link_count && used + 80 < sizeof ends; i++)
-    if (is_end(t, i))
+    if (is_last(t, i))
       used += (size_t)snprintf(ends + used, sizeof ends - used, "%s%.64s", used ? ", " : "",
                                t->links[i].name);
+  if (legless) {
+    ambulo__tree_note(
+        t, NULL,
+        "no feet: the model has no legs: none of its limbs ends lower than its trunk; "
+        "--foot NAME=LINK names a foot all the same; links at the ends of the body: "
+        "%s",
+        ends);
+    return;
+  }
   ambulo__tree_note(t, NULL,
                     "no feet: no link is named like a foot and has geometry; name them by --foot "
                     "left=LINK, or by --heel and --toe left=LINK:X,Y,Z; links at the ends of the "
@@ -270,86 +303,17 @@ static void note_no_feet(ambulo__tree *t) {
 
 void ambulo__find_feet(ambulo__tree *tree) {
   feet f = {.tree = tree};
+  int legless = 0;
   ambulo__tree_axes(tree, f.axes);
   feet_by_hand(tree);
   for (int i = 0; i < tree->options->foot_count && !tree->xml->status; i++) {
     const char *name = NULL, *rest = NULL;
     int link = parse_place(tree, "foot", tree->options->feet[i], &name, &rest);
-    if (link >= 0) (void)foot_from_solids(&f, name, link);
+    if (link >= 0) (void)foot_from_solids(&f, name, link, tree->options->foot_count > LONG_FEET);
   }
   if (tree->xml->status || tree->arena->failed) return;
-  if (tree->foot_count == 0) guess_feet(&f);
-  if (tree->foot_count == 0) note_no_feet(tree);
+  if (tree->foot_count == 0) guess_feet(&f, &legless);
+  if (tree->foot_count == 0) note_no_feet(tree, legless);
+  ambulo__check_feet(tree, (const double(*)[3])f.axes);
   stand(&f);
-}
-
-/* the pose that a solve begins at: defaults of the source, on the ground.
- *
- * A default outside its range goes to the nearer end. Then, where a slider that nothing drives goes
- * up between the world and the feet, its default changes by as much as the lowest point of the feet
- * is off the ground.
- */
-
-static void keep_in_range(ambulo__tree *tree, ambulo__tree_link *link) {
-  ambulo_coordinate *c = &link->coordinate;
-  double inside = fmin(c->range[1], fmax(c->range[0], c->default_value));
-  if (c->default_value == 0.0 || inside == c->default_value) return;
-  ambulo__tree_note(tree, link->node, "%s is %s by default, outside its range: it starts at %s",
-                    c->name, ambulo__number_text(c->default_value).text,
-                    ambulo__number_text(inside).text);
-  c->default_value = inside;
-}
-
-/* the slider on the way to a link that goes up and that nothing drives; -1 */
-static int lift_of(ambulo__tree *tree, int link, const double up[3], double *along) {
-  int found = -1;
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    double axis[3];
-    if (l->type != AMBULO_PRISMATIC || l->follows || l->coordinate.actuated) continue;
-    ambulo__rigid place = ambulo__tree_start_place(tree, i);
-    ambulo__rigid_vector(&place, l->axis, axis);
-    double cosine = ambulo__dot(axis, up);
-    if (fabs(cosine) < 0.999) continue;
-    *along = cosine;
-    found = i;
-  }
-  return found;
-}
-
-static void start_pose_stand(ambulo__tree *tree) {
-  double up[3], lowest = INFINITY, along = 1.0;
-  for (int i = 0; i < 3; i++) up[i] = -tree->gravity[i];
-  (void)ambulo__normalize(up);
-  for (int f = 0; f < tree->foot_count; f++) {
-    const ambulo__tree_foot *foot = &tree->feet[f];
-    const int points[4] = {foot->heel[0], foot->heel[1], foot->toe[0], foot->toe[1]};
-    for (int k = 0; k < 4; k++) {
-      double at[3];
-      if (points[k] < 0) continue;
-      const ambulo__tree_point *point = &tree->points[points[k]];
-      ambulo__rigid place = ambulo__tree_start_place(tree, point->link);
-      ambulo__rigid_point(&place, point->position, at);
-      lowest = fmin(lowest, ambulo__dot(at, up));
-    }
-  }
-  if (!isfinite(lowest) || fabs(lowest) < 1e-6) return;
-  int link = lift_of(tree, tree->points[tree->feet[0].heel[0]].link, up, &along);
-  if (link < 0) return;
-  ambulo_coordinate *c = &tree->links[link].coordinate;
-  double value = c->default_value - lowest / along;
-  if (!(value >= c->range[0] && value <= c->range[1])) return;
-  c->default_value = value;
-  if (fabs(lowest) > 1e-3)
-    ambulo__tree_note(tree, tree->links[link].node,
-                      "%s starts at %s m, %s mm %s than in the source, so that the feet stand on "
-                      "the ground",
-                      c->name, ambulo__three_digits(fabs(value)).text,
-                      ambulo__three_digits(1e3 * fabs(lowest)).text,
-                      lowest < 0.0 ? "higher" : "lower");
-}
-
-void ambulo__find_start(ambulo__tree *tree) {
-  for (int i = 0; i < tree->link_count; i++) keep_in_range(tree, &tree->links[i]);
-  start_pose_stand(tree);
 }

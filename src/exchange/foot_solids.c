@@ -1,199 +1,28 @@
-/* exchange/foot_solids.c - the lowest points of solids (body_tree.h).
+/* exchange/foot_solids.c - where a foot touches the ground: the lowest points of its solids
+ * (body_tree.h).
  *
  * The lowest point of an ellipsoid with half axes S in axes R is c - R S^2 R' u / |S R' u|; a
  * sphere is one, a capsule two spheres. Of cylinders the eight points of the rims along their own x
- * and y are taken, of boxes the corners, of meshes all vertices, where a foot has no other solids.
+ * and y are taken, of boxes the corners, of meshes all vertices.
+ *
+ * Only what is fixed to a foot counts, first what touches other things, then what is only seen, and
+ * of each solids before meshes. Toes on a joint of their own belong to a foot that is short without
+ * them. Feet are measured at q = 0 and in the start pose, and the flatter one counts: a robot that
+ * stands with bent knees may have its feet in the air or on their tips at q = 0.
  */
 #include "exchange/body_tree.h"
 
-#include "base/numtext.h"
 #include "base/arithmetic.h"
-#include "formats/paths.h"
-#include "formats/read_file.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-
-/* ----------------------------------------------------------------------- meshes */
-
-/*
- *   STL, binary   80 bytes, the number n of triangles, n times 12 floats (the normal, three
- *                 vertices) and 2 bytes; all little-endian
- *   STL, text     "vertex X Y Z"
- *   OBJ           "v X Y Z"
- */
-
-enum { HEAD = 84, TRIANGLE = 50, ABOVE = 6 };
-/* a file; vertices of all meshes of feet together, which is more than any one file has */
-static const size_t most_bytes = (size_t)64 << 20, most_points = (size_t)4 << 20;
-
-static uint32_t little_endian(const char *at) {
-  uint32_t value = 0;
-  for (int i = 3; i >= 0; i--) value = value << 8 | (unsigned char)at[i];
-  return value;
-}
-
-static double float_at(const char *at) {
-  uint32_t bits = little_endian(at);
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return (double)value;
-}
-
-static void add(ambulo__mesh *mesh, const double p[3]) {
-  if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) return;
-  for (int i = 0; i < 3; i++) mesh->points[3 * mesh->count + i] = p[i];
-  mesh->count++;
-}
-
-static void read_binary(ambulo__mesh *mesh, const char *text, size_t triangles) {
-  for (size_t t = 0; t < triangles; t++)
-    for (size_t v = 1; v < 4; v++) {
-      const char *at = text + HEAD + TRIANGLE * t + 12 * v;
-      const double p[3] = {float_at(at), float_at(at + 4), float_at(at + 8)};
-      add(mesh, p);
-    }
-}
-
-/* the three numbers behind `word` at the beginning of a line; 0 where it has another */
-static int read_line(const char *line, const char *word, double p[3]) {
-  size_t length = strlen(word);
-  line += strspn(line, " \t");
-  if (strncmp(line, word, length) != 0 || !strchr(" \t", line[length]) || !line[length]) return 0;
-  line += length;
-  for (int i = 0; i < 3; i++) {
-    line += strspn(line, " \t");
-    size_t digits = strcspn(line, " \t\r\n");
-    if (!ambulo__parse_double(line, digits, &p[i])) return 0;
-    line += digits;
-  }
-  return 1;
-}
-
-/* counts them, where there is no room for them yet */
-static int read_lines(ambulo__mesh *mesh, const char *text, const char *word) {
-  int count = 0;
-  for (const char *line = text; line; line = strchr(line, '\n')) {
-    double p[3];
-    line += *line == '\n';
-    if (!read_line(line, word, p)) continue;
-    count++;
-    if (mesh->points) add(mesh, p);
-  }
-  return count;
-}
-
-static void read_text(ambulo__tree *tree, ambulo__mesh *mesh, const char *text, size_t length) {
-  uint32_t triangles = length >= HEAD ? little_endian(text + 80) : 0;
-  int binary = length >= HEAD && length == HEAD + TRIANGLE * (size_t)triangles;
-  const char *word = strncmp(text, "solid", 5) == 0 ? "vertex" : "v";
-  size_t count = binary ? 3 * (size_t)triangles : (size_t)read_lines(mesh, text, word);
-  if (count == 0) return;
-  if (count > most_points - tree->mesh_points) {
-    ambulo__tree_note(tree, NULL,
-                      "mesh '%.80s' is left out: the meshes of feet have more than %zu vertices",
-                      mesh->file, most_points);
-    return;
-  }
-  mesh->points = ambulo__arena_take(tree->arena, 3 * count, sizeof *mesh->points);
-  if (!mesh->points) return;
-  tree->mesh_points += count;
-  if (binary)
-    read_binary(mesh, text, triangles);
-  else
-    (void)read_lines(mesh, text, word);
-}
-
-static int is_there(const char *path) {
-  struct stat about;
-  return path && stat(path, &about) == 0 && S_ISREG(about.st_mode);
-}
-
-/* beside the model, and with `above` also in the folders above; to be freed, NULL: not there */
-static char *beside(const ambulo_allocator *allocator, const char *model, const char *file,
-                    int above) {
-  char name[1024];
-  for (int up = 0; up <= above; up++) {
-    int length = 0;
-    for (int k = 0; k < up; k++)
-      length += snprintf(name + length, sizeof name - (size_t)length, "../");
-    int all = snprintf(name + length, sizeof name - (size_t)length, "%s", file);
-    if (all < 0 || (size_t)(length + all) >= sizeof name) return NULL;
-    char *path = ambulo__sibling_path(allocator, model, name);
-    if (is_there(path)) return path;
-    ambulo__free(allocator, path);
-  }
-  return NULL;
-}
-
-static char *find(const ambulo_allocator *allocator, const char *model, const char *file) {
-  static const char *const schemes[] = {"package://", "model://", "file://"};
-  int in_package = 0;
-  for (int i = 0; i < 3; i++) {
-    size_t length = strlen(schemes[i]);
-    if (strncmp(file, schemes[i], length) != 0) continue;
-    file += length;
-    in_package = i < 2;
-    break;
-  }
-  char *path = beside(allocator, model, file, in_package ? ABOVE : 0);
-  const char *inner = in_package ? strchr(file, '/') : NULL;
-  if (!path && inner) path = beside(allocator, model, inner + 1, ABOVE);
-  return path;
-}
-
-void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid *solid) {
-  if (!tree->path || !file || !file[0]) return;
-  for (int i = 0; i < 3; i++) solid->scale[i] = 1.0;
-  for (int i = 0; i < tree->mesh_count && !solid->mesh; i++)
-    if (strcmp(tree->meshes[i]->file, file) == 0) solid->mesh = tree->meshes[i];
-  if (solid->mesh || !ambulo__arena_grow(tree->arena, &tree->meshes, tree->mesh_count,
-                                         &tree->mesh_capacity, sizeof(ambulo__mesh *)))
-    return;
-  solid->mesh = ambulo__arena_take(tree->arena, 1, sizeof *solid->mesh);
-  if (!solid->mesh) return;
-  solid->mesh->file = file;
-  tree->meshes[tree->mesh_count++] = solid->mesh;
-}
-
-static void read_mesh(ambulo__tree *tree, ambulo__mesh *mesh) {
-  const ambulo_allocator *a = &tree->arena->allocator;
-  char *text = NULL;
-  size_t length = 0;
-  if (mesh->tried) return;
-  mesh->tried = 1;
-  char *path = find(a, tree->path, mesh->file);
-  ambulo_status status =
-      path ? ambulo__read_file(path, most_bytes, a, NULL, &text, &length) : AMBULO_E_IO;
-  if (!status) read_text(tree, mesh, text, length);
-  if (status == AMBULO_E_LIMIT)
-    ambulo__tree_note(tree, NULL, "mesh '%.80s' is left out: it has more than %zu MB", mesh->file,
-                      most_bytes >> 20);
-  ambulo__free(a, text);
-  ambulo__free(a, path);
-}
-
-/* ------------------------------------------------------------------------ soles */
 
 enum { MOST = 8 };
-static const double thickness = 0.02; /* m: a sole that is not quite level is still one */
-static const double shortest = 0.05;  /* m: below it toes of their own belong to the foot */
-
-char ambulo__side_of_link(const ambulo__tree *tree, int link) {
-  const char *name = tree->links[link].name;
-  char other[80], side = ambulo__side_of(name);
-  if (side || !ambulo__flip_letter(name, 0, other, sizeof other)) return side;
-  return ambulo__tree_find(tree, other) >= 0 ? name[0] : 0;
-}
-
-static int rigid_leader(const ambulo__tree *tree, int link) {
-  while (tree->links[link].type == AMBULO_FIXED && tree->links[link].parent >= 0)
-    link = tree->links[link].parent;
-  return link;
-}
+/* m: a sole that is not quite level is still one; on a tip, what is no more than twice that above
+ */
+static const double thickness = 0.02, tilted = 0.04;
+static const double shortest = 0.05; /* m: below it toes of their own belong to the foot */
+static const double pointed = 1e-3;  /* m: what is shorter touches in a point */
 
 /* points[MOST] in the axes of the solid; how many */
 static int points_of(const ambulo__tree_solid *s, const double down[3], double p[MOST][3]) {
@@ -225,12 +54,16 @@ static int points_of(const ambulo__tree_solid *s, const double down[3], double p
   return count;
 }
 
+static ambulo__rigid solid_place(const ambulo__tree *tree, const ambulo__tree_solid *s, int start) {
+  ambulo__rigid link = ambulo__tree_pose_of(tree, s->link, start);
+  return ambulo__rigid_times(&link, &s->at);
+}
+
 /* in world axes (forward, left, up) */
-static int world_points(ambulo__tree *tree, const ambulo__tree_solid *s, const double axes[3][3],
-                        double out[MOST][3]) {
+static int world_points(const ambulo__tree *tree, const ambulo__tree_solid *s,
+                        const double axes[3][3], int start, double out[MOST][3]) {
   double p[MOST][3], down[3], local[3], world[3];
-  ambulo__rigid link = ambulo__tree_place(tree, s->link);
-  ambulo__rigid place = ambulo__rigid_times(&link, &s->at);
+  ambulo__rigid place = solid_place(tree, s, start);
   for (int i = 0; i < 3; i++) down[i] = -axes[2][i];
   ambulo__rigid_back(&place, down, local);
   int count = points_of(s, local, p);
@@ -241,25 +74,23 @@ static int world_points(ambulo__tree *tree, const ambulo__tree_solid *s, const d
   return count;
 }
 
-static int hangs_on(const ambulo__tree *tree, int link, int above) {
-  while (link >= 0 && link != above) link = tree->links[link].parent;
-  return link == above;
-}
-
-/* one of `whole`: of the link and all below it, else of what is fixed to it */
-static int belongs(const ambulo__tree *tree, int solid, int leader, int whole) {
-  int link = tree->solids[solid].link;
-  return whole ? hangs_on(tree, link, leader) : rigid_leader(tree, link) == leader;
-}
-
 /* which solids of a foot count */
 typedef struct choice {
-  int leader, whole, meshes;
+  int leader, toes; /* links; toes -1: none */
+  int seen, meshes; /* what only is seen; meshes as well */
+  int start;        /* in the start pose */
+  double above;     /* m: what is no higher belongs to the sole */
 } choice;
 
-static void widen(ambulo__sole *sole, int pass, const double p[3]) {
+static int belongs(const ambulo__tree *tree, int solid, choice of) {
+  const ambulo__tree_solid *s = &tree->solids[solid];
+  int leader = ambulo__tree_leader(tree, s->link);
+  return (leader == of.leader || leader == of.toes) && s->seen == of.seen;
+}
+
+static void widen(ambulo__sole *sole, int pass, double above, const double p[3]) {
   if (pass == 0) sole->height = fmin(sole->height, p[2]);
-  if (pass == 0 || p[2] > sole->height + thickness) return;
+  if (pass == 0 || p[2] > sole->height + above) return;
   sole->along[0] = fmin(sole->along[0], p[0]);
   sole->along[1] = fmax(sole->along[1], p[0]);
   sole->across[0] = fmin(sole->across[0], p[1]);
@@ -267,81 +98,141 @@ static void widen(ambulo__sole *sole, int pass, const double p[3]) {
 }
 
 static void widen_by_mesh(ambulo__tree *tree, const ambulo__tree_solid *s, const double axes[3][3],
-                          int pass, ambulo__sole *sole) {
+                          choice of, int pass, ambulo__sole *sole) {
   if (!s->mesh) return;
-  read_mesh(tree, s->mesh);
-  ambulo__rigid link = ambulo__tree_place(tree, s->link);
-  ambulo__rigid place = ambulo__rigid_times(&link, &s->at);
+  ambulo__mesh_read(tree, s->mesh);
+  ambulo__rigid place = solid_place(tree, s, of.start);
   for (int k = 0; k < s->mesh->count; k++) {
     double own[3], world[3], p[3];
     for (int i = 0; i < 3; i++) own[i] = s->scale[i] * s->mesh->points[3 * k + i];
     ambulo__rigid_point(&place, own, world);
     for (int i = 0; i < 3; i++) p[i] = ambulo__dot(axes[i], world);
-    widen(sole, pass, p);
+    widen(sole, pass, of.above, p);
   }
 }
 
 static int measure(ambulo__tree *tree, choice of, const double axes[3][3], ambulo__sole *sole) {
   double p[MOST][3];
-  *sole = (ambulo__sole){
-      .along = {INFINITY, -INFINITY}, .across = {INFINITY, -INFINITY}, .height = INFINITY};
+  int meshes = sole->meshes;
+  *sole = (ambulo__sole){.along = {INFINITY, -INFINITY},
+                         .across = {INFINITY, -INFINITY},
+                         .height = INFINITY,
+                         .meshes = meshes,
+                         .start = of.start};
   for (int pass = 0; pass < 2; pass++) {
     for (int s = 0; s < tree->solid_count; s++) {
-      if (!belongs(tree, s, of.leader, of.whole)) continue;
-      if (tree->solids[s].shape == AMBULO__MESH) {
-        sole->meshes += pass;
-        if (of.meshes) widen_by_mesh(tree, &tree->solids[s], axes, pass, sole);
-        continue;
-      }
-      sole->solids += pass;
-      int count = world_points(tree, &tree->solids[s], axes, p);
-      for (int k = 0; k < count; k++) widen(sole, pass, p[k]);
+      if (!belongs(tree, s, of)) continue;
+      int is_mesh = tree->solids[s].shape == AMBULO__MESH;
+      sole->meshes |= is_mesh;
+      if (is_mesh && of.meshes) widen_by_mesh(tree, &tree->solids[s], axes, of, pass, sole);
+      if (is_mesh) continue;
+      int count = world_points(tree, &tree->solids[s], axes, of.start, p);
+      for (int k = 0; k < count; k++) widen(sole, pass, of.above, p[k]);
     }
   }
   return isfinite(sole->height);
 }
 
-/* from solids that are no meshes: toes of their own may belong to it */
-static int sole_of_solids(ambulo__tree *tree, int leader, const double axes[3][3],
-                          ambulo__sole *sole) {
-  int found = measure(tree, (choice){leader, 0, 0}, axes, sole);
-  if (!found || sole->along[1] - sole->along[0] >= shortest) return found;
-  ambulo__sole whole;
-  if (measure(tree, (choice){leader, 1, 0}, axes, &whole) &&
-      whole.along[1] - whole.along[0] >= shortest)
-    *sole = whole;
-  return sole->along[1] - sole->along[0] >= 1e-3;
+static double length_of(const ambulo__sole *sole) {
+  return sole->along[1] - sole->along[0];
 }
 
-static int sole_of_meshes(ambulo__tree *tree, int leader, const double axes[3][3],
-                          ambulo__sole *sole) {
-  return measure(tree, (choice){leader, 0, 1}, axes, sole) &&
-         sole->along[1] - sole->along[0] >= 1e-3;
+/* The link that hangs on a foot by one joint, has nothing below it and is as low: its toes. */
+static int toes_of(ambulo__tree *tree, choice of, const double axes[3][3],
+                   const ambulo__sole *foot) {
+  for (int i = 0; i < tree->link_count; i++) {
+    const ambulo__tree_link *link = &tree->links[i];
+    if (link->type == AMBULO_FIXED || link->parent < 0 || !ambulo__tree_is_end(tree, i) ||
+        ambulo__tree_leader(tree, link->parent) != of.leader)
+      continue;
+    ambulo__sole sole = {0};
+    choice own = of;
+    own.leader = i;
+    if (measure(tree, own, axes, &sole) && fabs(sole.height - foot->height) <= thickness) return i;
+  }
+  return -1;
+}
+
+/* in one pose; toes on a joint of their own belong to a short one */
+static int measure_foot(ambulo__tree *tree, choice of, const double axes[3][3],
+                        ambulo__sole *sole) {
+  of.above = thickness;
+  if (!measure(tree, of, axes, sole)) return 0;
+  if (length_of(sole) >= shortest) return 1;
+  of.toes = toes_of(tree, of, axes, sole);
+  for (int k = of.toes < 0; k < 3; k++) {
+    ambulo__sole whole = *sole;
+    choice other = of;
+    if (k == 1) other.toes = -1;
+    if (k > 0) other.above = tilted;
+    if (measure(tree, other, axes, &whole) && length_of(&whole) >= shortest) {
+      *sole = whole;
+      return 1;
+    }
+  }
+  return 1;
+}
+
+/* The flatter of both poses; of a point the start pose, as what is below a ball depends on it. */
+static int flatter(ambulo__tree *tree, choice of, const double axes[3][3], ambulo__sole *sole) {
+  ambulo__sole start = *sole;
+  if (!measure_foot(tree, of, axes, sole)) return 0;
+  of.start = 1;
+  if (!measure_foot(tree, of, axes, &start)) return 1;
+  int points = length_of(sole) < pointed && length_of(&start) < pointed;
+  if (points || length_of(&start) > 1.05 * length_of(sole)) *sole = start;
+  return 1;
+}
+
+int ambulo__height_of(ambulo__tree *tree, int leader, const double axes[3][3], double *height) {
+  choice of = {.leader = leader, .toes = -1, .start = 1, .above = thickness};
+  ambulo__sole sole = {0};
+  for (of.seen = 0; of.seen < 2; of.seen++)
+    for (of.meshes = 0; of.meshes < 2; of.meshes++)
+      if (measure(tree, of, axes, &sole)) {
+        *height = sole.height;
+        return 1;
+      }
+  return 0;
 }
 
 int ambulo__sole_of(ambulo__tree *tree, int link, const double axes[3][3], ambulo__sole *sole) {
-  int leader = rigid_leader(tree, link);
-  if (sole_of_solids(tree, leader, axes, sole)) return 1;
-  return sole->solids == 0 && sole->meshes > 0 && sole_of_meshes(tree, leader, axes, sole);
+  choice of = {.leader = ambulo__tree_leader(tree, link), .toes = -1};
+  *sole = (ambulo__sole){0};
+  for (of.seen = 0; of.seen < 2; of.seen++)
+    for (of.meshes = 0; of.meshes < 2; of.meshes++)
+      if (flatter(tree, of, axes, sole)) {
+        sole->is_point = length_of(sole) < pointed;
+        return 1;
+      }
+  return 0;
 }
 
-int ambulo__lowest_link(ambulo__tree *tree, const double axes[3][3], char side) {
-  int lowest = -1;
-  double height = INFINITY;
-  int *seen = ambulo__arena_take(tree->arena, (size_t)tree->link_count + 1, sizeof *seen);
-  for (int meshes = 0; seen && meshes < 2 && lowest < 0; meshes++) {
-    for (int s = 0; s < tree->solid_count; s++) {
-      ambulo__sole sole;
-      int leader = rigid_leader(tree, tree->solids[s].link);
-      if (seen[leader] > meshes) continue; /* its other solids were measured with it */
-      seen[leader] = meshes + 1;
-      if (ambulo__side_of_link(tree, leader) != side) continue;
-      int found = meshes ? sole_of_meshes(tree, leader, axes, &sole)
-                         : sole_of_solids(tree, leader, axes, &sole);
-      if (!found || !(sole.height < height)) continue;
-      height = sole.height;
-      lowest = leader;
-    }
+/* The box with the mass and the moments of inertia of a foot, whose edges a, b, c along its own
+ * axes are from  m (b^2 + c^2) / 12 = Ixx  and so on; none where it is larger than any foot. */
+int ambulo__sole_of_inertia(const ambulo__tree *tree, int link, const double axes[3][3],
+                            double longest, ambulo__sole *sole) {
+  int leader = ambulo__tree_leader(tree, link);
+  ambulo__part body;
+  ambulo__tree_whole(tree, leader, &body);
+  if (!(body.mass > 0.0)) return 0;
+  double turned[6], com[3], r[3][3], half[3];
+  ambulo__rigid place = ambulo__tree_pose_of(tree, leader, 1);
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++)
+      r[i][k] =
+          axes[i][0] * place.r[0][k] + axes[i][1] * place.r[1][k] + axes[i][2] * place.r[2][k];
+  ambulo__inertia_turn((const double(*)[3])r, body.inertia, turned);
+  ambulo__rigid_point(&place, body.com, com);
+  for (int i = 0; i < 3; i++) {
+    double square = turned[(i + 1) % 3] + turned[(i + 2) % 3] - turned[i];
+    half[i] = sqrt(fmax(0.0, 1.5 * square / body.mass));
   }
-  return lowest;
+  if (!(half[0] > pointed) || 2.0 * half[0] > longest || 2.0 * half[1] > longest) return 0;
+  double along = ambulo__dot(axes[0], com), across = ambulo__dot(axes[1], com);
+  *sole = (ambulo__sole){.along = {along - half[0], along + half[0]},
+                         .across = {across - half[1], across + half[1]},
+                         .height = ambulo__dot(axes[2], com) - half[2],
+                         .start = 1};
+  return 1;
 }

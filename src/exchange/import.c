@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arithmetic.h"
+#include "base/numtext.h"
 #include "base/sized.h"
 #include "formats/atomic_file.h"
 #include "exchange/body_tree.h"
@@ -69,19 +71,29 @@ static const char *model_name(ambulo__arena *arena, const char *name) {
   return copy && copy[0] ? copy : "model";
 }
 
-static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__text_buffer *text) {
-  ambulo__xml *xml = tree->xml;
-  ambulo__xml_node *root = ambulo__xml_load(xml, path);
-  if (!root) return xml->status;
+static int is_well(const ambulo__tree *tree) {
+  return !tree->xml->status && !tree->arena->failed;
+}
+
+static void read_links(ambulo__tree *tree, const char *path) {
+  ambulo__xml_node *root = ambulo__xml_load(tree->xml, path);
+  if (!root) return;
   tree->path = path;
   read_format(tree, root, path);
-  if (!xml->status && !tree->arena->failed) ambulo__tree_resolve(tree);
+  if (is_well(tree)) ambulo__tree_resolve(tree);
   expect_motion(tree, root);
-  if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
-  if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
-  if (!xml->status && !tree->arena->failed) ambulo__find_start(tree);
-  if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
-  if (!xml->status && !tree->arena->failed) ambulo__tree_center(tree);
+  if (is_well(tree)) ambulo__tree_check(tree);
+  tree->trunk = is_well(tree) ? ambulo__tree_trunk(tree) : -1;
+}
+
+static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__text_buffer *text) {
+  ambulo__xml *xml = tree->xml;
+  read_links(tree, path);
+  if (is_well(tree)) ambulo__find_feet(tree);
+  if (is_well(tree) && tree->options->symmetrize) ambulo__symmetrize(tree);
+  if (is_well(tree)) ambulo__find_start(tree);
+  if (is_well(tree)) ambulo__find_mirrors(tree);
+  if (is_well(tree)) ambulo__tree_center(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
   tree->name = model_name(tree->arena, tree->name);
@@ -89,6 +101,57 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (tree->arena->failed || ambulo__text_status(text))
     return ambulo__error(xml->diagnostics, AMBULO_E_MEMORY, ambulo__nowhere, NULL, "out of memory");
   return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------------ forward */
+
+/* "x", "-y" or three numbers; 0 for anything else */
+static int parse_forward(const char *text, double forward[3]) {
+  int sign = text[0] == '-' ? -1 : 1;
+  const char *letter = text + (text[0] == '-' || text[0] == '+');
+  if (letter[0] >= 'x' && letter[0] <= 'z' && !letter[1]) {
+    for (int i = 0; i < 3; i++) forward[i] = letter[0] - 'x' == i ? sign : 0.0;
+    return 1;
+  }
+  for (int i = 0; i < 3; i++) {
+    size_t digits = strcspn(text, ",");
+    if (!ambulo__parse_double(text, digits, &forward[i]) || (text[digits] == ',') != (i < 2))
+      return 0;
+    text += digits + 1;
+  }
+  return ambulo__normalize(forward) > 1e-9;
+}
+
+/* Coordinates of a free body are about forward, so it is known before the links are read in
+ * earnest: they are read once in silence. */
+static ambulo_status settle_forward(const char *path, const ambulo_import_options *options,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, double forward[3]) {
+  ambulo__arena arena = {.allocator = ambulo__allocator_or_default(allocator)};
+  ambulo__xml xml = {.arena = &arena};
+  ambulo__tree tree = {.arena = &arena,
+                       .xml = &xml,
+                       .options = options,
+                       .name = "model",
+                       .format = "",
+                       .gravity = {0, -9.81, 0},
+                       .forward = {1, 0, 0}};
+  const char *given = options->forward;
+  double across[3];
+  read_links(&tree, path);
+  if (is_well(&tree) && !given) ambulo__find_forward(&tree);
+  if (is_well(&tree)) memcpy(forward, tree.forward, sizeof tree.forward);
+  int good = !given || parse_forward(given, forward);
+  if (good && given && is_well(&tree)) {
+    ambulo__cross(tree.gravity, forward, across);
+    good = ambulo__normalize(across) > 1e-3;
+  }
+  ambulo__arena_free(&arena);
+  if (good) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                       "--forward '%.60s' is no direction along the ground; expected x, -x, y, -y, "
+                       "z, -z or X,Y,Z",
+                       given);
 }
 
 /* the text as a model, with its own messages */
@@ -114,7 +177,8 @@ static ambulo_status import_text(const char *path, const ambulo_import_options *
                        .format = "",
                        .gravity = {0, -9.81, 0},
                        .forward = {1, 0, 0}};
-  ambulo_status status = read_tree(&tree, path, text);
+  ambulo_status status = settle_forward(path, options, allocator, diagnostics, tree.forward);
+  if (!status) status = read_tree(&tree, path, text);
   if (!status) status = read_back(text, allocator, diagnostics);
   ambulo__arena_free(&arena);
   return status;

@@ -112,19 +112,37 @@ static double sign_of(ambulo__tree *tree, int link, int partner, const double le
   return 0.0;
 }
 
-/* the coordinate of the other side by name; the link itself where its name says no side, or none
- * that another has; *lonely: it says one */
-static int partner_of(const ambulo__tree *tree, int link, int *lonely) {
+/* What has the name with the sides that it says exchanged; else with one letter l or r exchanged,
+ * wherever that makes another name: lfemurrx, leg_l4, LR_HR of a left leg (its hip's roll). */
+static int partner_by_name(const ambulo__tree *tree, const char *own,
+                           int (*find)(const ambulo__tree *, const char *)) {
   char name[80];
+  int partner = ambulo__other_side(own, name, sizeof name) ? find(tree, name) : -1;
+  for (size_t i = 0; partner < 0 && own[i]; i++)
+    if (ambulo__flip_letter(own, i, name, sizeof name)) partner = find(tree, name);
+  return partner;
+}
+
+int ambulo__partner_link(const ambulo__tree *tree, int link) {
+  return partner_by_name(tree, tree->links[link].name, ambulo__tree_find);
+}
+
+char ambulo__side_of_link(const ambulo__tree *tree, int link) {
+  const char *own = tree->links[link].name;
+  int partner = ambulo__partner_link(tree, link);
+  if (partner < 0) return ambulo__side_of(own);
+  const char *other = tree->links[partner].name;
+  size_t i = 0;
+  while (own[i] && tolower((unsigned char)own[i]) == tolower((unsigned char)other[i])) i++;
+  return (char)tolower((unsigned char)own[i]);
+}
+
+int ambulo__partner_coordinate(const ambulo__tree *tree, int link) {
   const char *own = tree->links[link].coordinate.name;
-  int sided = ambulo__other_side(own, name, sizeof name);
-  int partner = sided ? ambulo__tree_find_coordinate(tree, name) : -1;
-  /* one letter alone; of lfemurrx, which says no side otherwise, the first */
-  for (size_t i = 0; partner < 0 && own[i] && (sided || i == 0); i++)
-    if (ambulo__flip_letter(own, i, name, sizeof name))
-      partner = ambulo__tree_find_coordinate(tree, name);
-  *lonely = sided && partner < 0;
-  return partner < 0 ? link : partner;
+  int partner = partner_by_name(tree, own, ambulo__tree_find_coordinate);
+  if (partner < 0 || tree->links[partner].type != tree->links[link].type) return link;
+  own = tree->links[partner].coordinate.name;
+  return partner_by_name(tree, own, ambulo__tree_find_coordinate) == link ? partner : link;
 }
 
 void ambulo__find_mirrors(ambulo__tree *tree) {
@@ -134,14 +152,11 @@ void ambulo__find_mirrors(ambulo__tree *tree) {
   left_of(tree, left);
   for (int i = 0; i < tree->link_count; i++) {
     ambulo__tree_link *link = &tree->links[i];
-    int alone = 0;
     if (link->type == AMBULO_FIXED || link->follows) continue;
-    int partner = partner_of(tree, i, &alone);
-    if (partner_of(tree, partner, &alone) != i || tree->links[partner].type != link->type)
-      partner = i;
+    int partner = ambulo__partner_coordinate(tree, i);
     double sign = sign_of(tree, i, partner, left);
     link->has_mirror = sign != 0.0;
-    if (alone && !link->has_mirror) {
+    if (partner == i && !link->has_mirror && ambulo__side_of(link->coordinate.name)) {
       lonely++;
       example = link->coordinate.name;
     }
@@ -151,4 +166,16 @@ void ambulo__find_mirrors(ambulo__tree *tree) {
   if (lonely)
     ambulo__tree_note(tree, NULL, "%d coordinates have no partner on the other side (%s, for one)",
                       lonely, example);
+}
+
+/* fl and fr, l1 and r1; names of the importer's own begin or end with their side */
+int ambulo__tree_mirror_foot(const ambulo__tree *tree, int foot) {
+  char name[80];
+  const char *own = tree->feet[foot].name;
+  size_t length = strlen(own), at = length > 1 && isdigit((unsigned char)own[1]) ? 0 : length - 1;
+  int sided = ambulo__other_side(own, name, sizeof name) ||
+              (length == 2 && ambulo__flip_letter(own, at, name, sizeof name));
+  for (int i = 0; sided && i < tree->foot_count; i++)
+    if (strcmp(tree->feet[i].name, name) == 0) return i;
+  return -1;
 }

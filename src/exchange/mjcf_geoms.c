@@ -275,5 +275,6 @@ void ambulo__mjcf_geom(ambulo__mjcf *m, const ambulo__xml_node *geom, const char
     add_mass(m, geom, around, solid, body);
   (void)ambulo__mjcf_numbers(m, geom, around, "contype", 1, 1, &touches[0]);
   (void)ambulo__mjcf_numbers(m, geom, around, "conaffinity", 1, 1, &touches[1]);
-  *has_solid = touches[0] != 0.0 || touches[1] != 0.0;
+  solid->seen = touches[0] == 0.0 && touches[1] == 0.0;
+  *has_solid = 1;
 }

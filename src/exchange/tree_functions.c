@@ -28,7 +28,7 @@ int ambulo__function_is_line(const ambulo__tree_function *f) {
   return f->count == 0 && c[2] == 0.0 && c[3] == 0.0 && c[4] == 0.0;
 }
 
-double ambulo__function_value(ambulo__tree *tree, const ambulo__tree_function *f, double x) {
+double ambulo__function_value(const ambulo__tree *tree, const ambulo__tree_function *f, double x) {
   ambulo_link link = {.spline = f->points, .spline_count = f->count};
   memcpy(link.polynomial, f->polynomial, sizeof link.polynomial);
   ambulo__coupling coupling = {.count = ambulo__coupling_count(&link)};
@@ -102,7 +102,7 @@ void ambulo__tree_couple(ambulo__tree *tree, int link, const char *to,
   l->function = *function;
 }
 
-double ambulo__tree_stands(ambulo__tree *tree, int link, int start) {
+double ambulo__tree_stands(const ambulo__tree *tree, int link, int start) {
   const ambulo__tree_link *l = &tree->links[link];
   int to = l->follows ? ambulo__tree_find_coordinate(tree, l->follows) : -1;
   if (!l->follows) return start ? l->coordinate.default_value : 0.0;

@@ -111,7 +111,7 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
 }
 
 /* Angles of both sides in degrees: c_i becomes c_i X^i / Y. */
-static void print_function(ambulo__tree *tree, const ambulo__tree_link *link,
+static void print_function(const ambulo__tree *tree, const ambulo__tree_link *link,
                            ambulo__text_buffer *text) {
   const ambulo__tree_function *f = &link->function;
   const ambulo__tree_link *to = &tree->links[ambulo__tree_find_coordinate(tree, link->follows)];
@@ -133,7 +133,7 @@ static void print_function(ambulo__tree *tree, const ambulo__tree_link *link,
   ambulo__text_append(text, "]}");
 }
 
-static void print_link(ambulo__tree *tree, const ambulo__tree_link *link,
+static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
                        ambulo__text_buffer *text) {
   static const char *const types[] = {"", "fixed", "revolute", "prismatic"};
   double rpy[3];
@@ -180,25 +180,26 @@ static void print_corners(const ambulo__tree *tree, const char *key, const int c
   ambulo__text_append(text, "]");
 }
 
+static void print_sole(const ambulo__tree *tree, const ambulo__tree_foot *foot,
+                       ambulo__text_buffer *text) {
+  print_corners(tree, "heel", foot->heel, text);
+  print_corners(tree, "toe", foot->toe, text);
+  ambulo__text_append_format(text, ",\n     heel_center: %s, toe_center: %s",
+                             tree->points[foot->heel_center].name,
+                             tree->points[foot->toe_center].name);
+}
+
 static void print_feet(const ambulo__tree *tree, ambulo__text_buffer *text) {
-  const char *right = NULL, *left = NULL;
-  for (int i = 0; i < tree->foot_count; i++) {
-    if (strcmp(tree->feet[i].name, "right") == 0) right = "left";
-    if (strcmp(tree->feet[i].name, "left") == 0) left = "right";
-  }
   ambulo__text_append(text, "\nfeet:\n");
   for (int i = 0; i < tree->foot_count; i++) {
     const ambulo__tree_foot *foot = &tree->feet[i];
+    int mirror = ambulo__tree_mirror_foot(tree, i);
     ambulo__text_append_format(text, "  - {name: %s", foot->name);
-    print_corners(tree, "heel", foot->heel, text);
-    print_corners(tree, "toe", foot->toe, text);
-    ambulo__text_append_format(text, ",\n     heel_center: %s, toe_center: %s",
-                               tree->points[foot->heel_center].name,
-                               tree->points[foot->toe_center].name);
-    const char *mirror = strcmp(foot->name, "right") == 0  ? right
-                         : strcmp(foot->name, "left") == 0 ? left
-                                                           : NULL;
-    if (mirror && right && left) ambulo__text_append_format(text, ", mirror: %s", mirror);
+    if (foot->heel_center == foot->toe_center)
+      ambulo__text_append_format(text, ", point: %s", tree->points[foot->heel_center].name);
+    else
+      print_sole(tree, foot, text);
+    if (mirror >= 0) ambulo__text_append_format(text, ", mirror: %s", tree->feet[mirror].name);
     ambulo__text_append(text, "}\n");
   }
 }
@@ -230,7 +231,7 @@ static void print_head(const ambulo__tree *tree, const char *source, ambulo__tex
   ambulo__text_append(text, "\n\nlinks:\n");
 }
 
-void ambulo__tree_print(ambulo__tree *tree, const char *source, ambulo__text_buffer *text) {
+void ambulo__tree_print(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text) {
   print_head(tree, source, text);
   for (int i = 0; i < tree->link_count; i++) print_link(tree, &tree->links[i], text);
   if (tree->point_count) ambulo__text_append(text, "\npoints:\n");

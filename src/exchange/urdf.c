@@ -177,13 +177,13 @@ static void read_inertial(ambulo__tree *tree, int link, const ambulo__xml_node *
   ambulo__tree_body(tree, link, &part, mass, inertia ? inertia : node);
 }
 
-static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node *node) {
+static void read_solid(ambulo__tree *tree, int link, const ambulo__xml_node *node, int seen) {
   static const char *const names[] = {"box", "sphere", "cylinder", "capsule"};
   static const ambulo__shape shapes[] = {AMBULO__BOX, AMBULO__SPHERE, AMBULO__CYLINDER,
                                          AMBULO__CAPSULE};
   const ambulo__xml_node *geometry = ambulo__xml_child(node, "geometry");
   const ambulo__xml_node *shape = geometry ? geometry->first : NULL;
-  ambulo__tree_solid solid = {.link = link, .shape = AMBULO__MESH};
+  ambulo__tree_solid solid = {.link = link, .shape = AMBULO__MESH, .seen = seen};
   if (!shape) return;
   solid.at = origin_of(tree->xml, node);
   for (int i = 0; i < 4; i++)
@@ -206,7 +206,8 @@ static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node 
 static void read_link(ambulo__tree *tree, int link, const ambulo__xml_node *node) {
   const ambulo__xml_node *inertial = ambulo__xml_child(node, "inertial");
   if (inertial) read_inertial(tree, link, inertial, ambulo__xml_name(node));
-  AMBULO__XML_EACH (n, node, "collision") read_collision(tree, link, n);
+  AMBULO__XML_EACH (n, node, "collision") read_solid(tree, link, n, 0);
+  AMBULO__XML_EACH (n, node, "visual") read_solid(tree, link, n, 1);
 }
 
 static void note_leftovers(ambulo__tree *tree, const ambulo__xml_node *root) {

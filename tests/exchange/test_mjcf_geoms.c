@@ -114,26 +114,30 @@ static void what_weighs_nothing(void **state) {
   }
 }
 
-/* a foot's sole is of what can touch: contype or conaffinity */
+/* a foot's sole is of what can touch, by contype or conaffinity; of what is only seen where nothing
+ * does */
 static void what_touches(void **state) {
   static const struct {
     const char *more;
-    int feet;
-  } cases[] = {{"", 1},
-               {"contype='0'", 1},
-               {"conaffinity='0'", 1},
-               {"contype='0' conaffinity='0'", 0},
-               {"type='plane'", 0}};
+    double toe; /* m ahead; 0: no foot */
+  } cases[] = {
+      {"", .15},
+      {"contype='0'", .15},
+      {"conaffinity='0'", .15},
+      {"contype='0' conaffinity='0'", .15},
+      {"contype='0' conaffinity='0'/><geom type='box' size='.2 .05 .01' pos='0 0 -.02'", .2},
+      {"type='plane'", 0}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char text[900];
-    (void)snprintf(
-        text, sizeof text,
-        "<mujoco><worldbody><body name='b'>" BODY "<freejoint/><body name='foot_r'>" BODY
-        "<joint name='ankle'/><geom %s %s size='.1 .05 .02' pos='.05 0 -.05'/></body></body>"
-        "</worldbody></mujoco>",
-        i < 4 ? "type='box'" : "", cases[i].more);
+    (void)snprintf(text, sizeof text,
+                   "<mujoco><worldbody><body name='b'>" BODY "<freejoint/><body name='foot_r'>" BODY
+                   "<joint name='ankle'/><geom %s %s/></body></body>"
+                   "</worldbody></mujoco>",
+                   i < 5 ? "type='box' size='.1 .05 .02' pos='.05 0 -.05'" : "", cases[i].more);
     import_case c = import_good(state, text);
-    assert_int_equal(ambulo_model_foot_count(c.model), cases[i].feet);
+    int toe = ambulo_model_find_point(c.model, "right_toe");
+    assert_int_equal(toe >= 0, cases[i].toe > 0);
+    if (toe >= 0) assert_close(ambulo_model_point(c.model, toe)->position[0], cases[i].toe, 1e-12);
     import_shut(&c);
   }
 }

@@ -244,7 +244,7 @@ static void soles(void **state) {
                                                                   "foot_r", "<axis xyz='0 1 0'/>")),
         cases[i].geometry);
     import_case c = import_good(state, text);
-    assert_int_equal(ambulo_model_foot_count(c.model), cases[i].length > 0 && i != 2 && i != 6);
+    assert_int_equal(ambulo_model_foot_count(c.model), cases[i].length > 0);
     import_shut(&c);
   }
 }

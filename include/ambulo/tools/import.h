@@ -34,7 +34,7 @@ typedef struct ambulo_import_options {
   const char *const *pose;
   int pose_count;
   /* "FOOT=LINK": a foot, whose corners come from the geometry of a link. None: links whose names
-   * say so. */
+   * say so, else the lowest of each leg. */
   const char *const *feet;
   int foot_count;
   /* "FOOT=LINK:X,Y,Z" or, with two corners, "FOOT=LINK:X,Y,Z:X,Y,Z", m: corners by hand. */
@@ -45,6 +45,10 @@ typedef struct ambulo_import_options {
   int unlock;         /* 1: coordinates that the source locks become coordinates all the same */
   int repair_inertia; /* 1: an inertia that no body can have is raised to the nearest possible */
   int overwrite;      /* 1: `output` may be a file that is there and not empty */
+  /* Where the body goes, in the source's world: "x", "-x", "y", ... or "X,Y,Z". NULL: as names of
+   * left and right say, else heels and toes. */
+  const char *forward;
+  int symmetrize; /* 1: left and right become exact images, where they nearly are */
 } ambulo_import_options;
 AMBULO_TOOL_DEFAULT(ambulo_import_options);
 
