@@ -6,8 +6,8 @@
  *
  * (Denavit & Hartenberg 1955; the seed's Fig. 1). A revolute link adds its
  * coordinate q to theta, a prismatic link adds q to d, a fixed link has no
- * coordinate; a coupled link adds a function of another link's coordinate. The link frame is the frame *after* the transform; bodies and
- * points are given in it. Units: SI and radians, always.
+ * coordinate; a coupled link adds a function of another link's coordinate. The link frame is the
+ * frame *after* the transform; bodies and points are given in it. Units: SI and radians, always.
  *
  * A model is built from a definition in memory or from a YAML file
  * (docs/model-format.md), checked, and never changes afterwards: it may be shared
@@ -81,7 +81,8 @@ typedef struct ambulo_link {
   const double *spline; /* [spline_count][2]: coordinate, ascending, and value of the joint. The
                            cubic spline through them, straight beyond both ends; its second
                            derivative is continuous between the ends */
-  double polynomial[5]; /* the joint's value is the sum of polynomial[i] times q to the power of i */
+  double
+      polynomial[5]; /* the joint's value is the sum of polynomial[i] times q to the power of i */
 } ambulo_link;
 
 /* A named point fixed on a link. */

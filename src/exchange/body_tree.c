@@ -256,28 +256,6 @@ void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
   ambulo__cross(axes[1], axes[2], axes[0]);
 }
 
-static ambulo__rigid place_of(ambulo__tree *tree, int link, int start) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    double value = l->type == AMBULO_FIXED ? 0.0 : ambulo__tree_stands(tree, i, start);
-    if (value != 0.0) {
-      ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, value);
-      place = ambulo__rigid_times(&step, &place);
-    }
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
-}
-
-ambulo__rigid ambulo__tree_place(ambulo__tree *tree, int link) {
-  return place_of(tree, link, 0);
-}
-
-ambulo__rigid ambulo__tree_start_place(ambulo__tree *tree, int link) {
-  return place_of(tree, link, 1);
-}
-
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback) {
   size_t length = strlen(coordinate);
   for (int i = 0; i < tree->options->pose_count; i++) {

@@ -47,8 +47,8 @@ typedef struct ambulo__tree_link {
    * that it has in the source; NULL: none. */
   const char *follows, *was;
   ambulo__tree_function function;
-  double reference; /* of a joint of MuJoCo: where functions count its coordinate from, rad or m */
-  ambulo__part body;   /* mass 0: none */
+  double reference;  /* of a joint of MuJoCo: where functions count its coordinate from, rad or m */
+  ambulo__part body; /* mass 0: none */
   const char *comment; /* one line, NULL: none */
   const ambulo__xml_node *node;
 } ambulo__tree_link;

@@ -226,8 +226,8 @@ static int points_of(const ambulo__tree_solid *s, const double down[3], double p
 }
 
 /* in world axes (forward, left, up) */
-static int world_points(ambulo__tree *tree, const ambulo__tree_solid *s,
-                        const double axes[3][3], double out[MOST][3]) {
+static int world_points(ambulo__tree *tree, const ambulo__tree_solid *s, const double axes[3][3],
+                        double out[MOST][3]) {
   double p[MOST][3], down[3], local[3], world[3];
   ambulo__rigid link = ambulo__tree_place(tree, s->link);
   ambulo__rigid place = ambulo__rigid_times(&link, &s->at);

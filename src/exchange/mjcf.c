@@ -2,7 +2,8 @@
  *
  * Bodies with their joints, masses and geoms (mjcf_bodies.c), default classes, included files,
  * torque limits from actuators; joints that an equality makes a polynomial of another. Angles are
- * degrees unless the compiler says radian; z is up. Tendons, other equalities, springs and dampers of joints, armature and contacts are not carried over.
+ * degrees unless the compiler says radian; z is up. Tendons, other equalities, springs and dampers
+ * of joints, armature and contacts are not carried over.
  */
 #include "exchange/mjcf.h"
 

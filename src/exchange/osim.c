@@ -52,7 +52,8 @@ static void put_still(building *b, int slides, const double axis[3], double valu
 static void put_following(building *b, int slides, const double axis[3], const char *name,
                           const char *to, const ambulo__tree_function *function) {
   const char *full = ambulo__arena_print(b->o->tree->arena, "%.40s_%.20s", b->joint->name, name);
-  int link = ambulo__chain_joint(&b->chain, slides ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, axis, full);
+  int link =
+      ambulo__chain_joint(&b->chain, slides ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, axis, full);
   ambulo__tree_couple(b->o->tree, link, to, function);
 }
 
@@ -196,9 +197,9 @@ static int put_bearer(building *b, int c, int turns) {
   const double axis[3] = {0, 0, 1};
   ambulo__rigid none = ambulo__rigid_identity();
   if (b->chain.parent < 0) return 0; /* the world has one link */
-  int link = ambulo__tree_add(b->o->tree, coordinate->name, b->chain.parent,
-                              turns ? AMBULO_REVOLUTE : AMBULO_PRISMATIC, &none, axis,
-                              b->joint->node);
+  int link =
+      ambulo__tree_add(b->o->tree, coordinate->name, b->chain.parent,
+                       turns ? AMBULO_REVOLUTE : AMBULO_PRISMATIC, &none, axis, b->joint->node);
   if (link < 0) return 1;
   b->has_link[c] = 1;
   ambulo__osim_limits(b->o, coordinate, 1.0, link);

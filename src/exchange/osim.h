@@ -54,8 +54,8 @@ int ambulo__osim_flag(const ambulo__xml_node *node, const char *name, int otherw
 typedef struct ambulo__osim_coordinate {
   const char *name;
   const ambulo__xml_node *node;
-  int held;     /* 1: it does not move: locked, prescribed, or follows one that does not */
-  double value; /* where it stands when something is frozen, rad or m */
+  int held;           /* 1: it does not move: locked, prescribed, or follows one that does not */
+  double value;       /* where it stands when something is frozen, rad or m */
   const char *leader; /* the coordinate that it is a function of; NULL: it is its own */
   ambulo__tree_function function;
 } ambulo__osim_coordinate;

@@ -1,6 +1,7 @@
 /* exchange/tree_functions.c - joints of a tree that are functions of coordinates.
  *
- * A joint that follows one that follows another is a function of the last: g(f(x)). With f = a x + b
+ * A joint that follows one that follows another is a function of the last: g(f(x)). With f = a x +
+ * b
  *
  *     spline      the points (x, y) of g become ((x - b) / a, y): it stays the spline through them
  *     polynomial  g's coefficients in powers of a x + b
@@ -28,8 +29,7 @@ double ambulo__function_value(ambulo__tree *tree, const ambulo__tree_function *f
   ambulo_link link = {.spline = f->points, .spline_count = f->count};
   memcpy(link.polynomial, f->polynomial, sizeof link.polynomial);
   ambulo__coupling coupling = {.count = ambulo__coupling_count(&link)};
-  ambulo__piece *pieces =
-      ambulo__arena_take(tree->arena, (size_t)coupling.count, sizeof *pieces);
+  ambulo__piece *pieces = ambulo__arena_take(tree->arena, (size_t)coupling.count, sizeof *pieces);
   if (!pieces) return 0.0;
   ambulo__coupling_fill(&link, pieces);
   coupling.pieces = pieces;
@@ -78,8 +78,7 @@ int ambulo__function_of_function(ambulo__tree *tree, const ambulo__tree_function
                                  const ambulo__tree_function *f, ambulo__tree_function *out) {
   if (ambulo__function_is_line(g)) return scaled(tree, f, g->polynomial[1], g->polynomial[0], out);
   if (!ambulo__function_is_line(f)) return 0;
-  if (f->polynomial[1] != 0.0)
-    return substituted(tree, g, f->polynomial[1], f->polynomial[0], out);
+  if (f->polynomial[1] != 0.0) return substituted(tree, g, f->polynomial[1], f->polynomial[0], out);
   *out = ambulo__tree_line(0.0, ambulo__function_value(tree, g, f->polynomial[0]));
   return 1;
 }
@@ -102,6 +101,28 @@ double ambulo__tree_stands(ambulo__tree *tree, int link, int start) {
   if (!l->follows) return start ? l->coordinate.default_value : 0.0;
   double x = start && to >= 0 ? tree->links[to].coordinate.default_value : 0.0;
   return ambulo__function_value(tree, &l->function, x);
+}
+
+static ambulo__rigid place_of(ambulo__tree *tree, int link, int start) {
+  ambulo__rigid place = ambulo__rigid_identity();
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    double value = l->type == AMBULO_FIXED ? 0.0 : ambulo__tree_stands(tree, i, start);
+    if (value != 0.0) {
+      ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, value);
+      place = ambulo__rigid_times(&step, &place);
+    }
+    place = ambulo__rigid_times(&l->origin, &place);
+  }
+  return place;
+}
+
+ambulo__rigid ambulo__tree_place(ambulo__tree *tree, int link) {
+  return place_of(tree, link, 0);
+}
+
+ambulo__rigid ambulo__tree_start_place(ambulo__tree *tree, int link) {
+  return place_of(tree, link, 1);
 }
 
 /* ----------------------------------------------------------------- what they follow */
@@ -147,6 +168,5 @@ static void resolve(ambulo__tree *tree, ambulo__tree_link *l) {
 }
 
 void ambulo__tree_resolve(ambulo__tree *tree) {
-  for (int i = 0; i < tree->link_count && !tree->arena->failed; i++)
-    resolve(tree, &tree->links[i]);
+  for (int i = 0; i < tree->link_count && !tree->arena->failed; i++) resolve(tree, &tree->links[i]);
 }

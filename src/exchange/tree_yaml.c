@@ -103,8 +103,7 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
 static void print_function(ambulo__tree *tree, const ambulo__tree_link *link,
                            ambulo__text_buffer *text) {
   const ambulo__tree_function *f = &link->function;
-  const ambulo__tree_link *to =
-      &tree->links[ambulo__tree_find_coordinate(tree, link->follows)];
+  const ambulo__tree_link *to = &tree->links[ambulo__tree_find_coordinate(tree, link->follows)];
   double x = to->type == AMBULO_REVOLUTE ? degree : 1.0;
   double y = link->type == AMBULO_REVOLUTE ? degree : 1.0, factor = 1.0 / y;
   int last = AMBULO__COUPLING_TERMS - 1;

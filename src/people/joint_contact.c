@@ -70,8 +70,8 @@ static void move_link(const ambulo__pose *pose, int index, const double *q, cons
 }
 
 /* m (a - g) of each link's own body, world */
-static void inertial(const ambulo__pose *pose, const double *q, const double *qd,
-                     const double *qdd, link_motion *all, double *forces) {
+static void inertial(const ambulo__pose *pose, const double *q, const double *qd, const double *qdd,
+                     link_motion *all, double *forces) {
   const ambulo_model *model = pose->model;
   for (int i = 0; i < model->link_count; i++) {
     const ambulo_link *link = &model->links[i];

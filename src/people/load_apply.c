@@ -94,8 +94,8 @@ ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const a
     for (int foot = 0; foot < load->feet; foot++) {
       size_t at = 3 * ((size_t)k * (size_t)load->feet + (size_t)foot);
       int link = model->points[model->feet[foot].heel[0]].link;
-      ambulo__load_take(model, pose.frames, link, q + (size_t)k * d, load->force + at, load->moment + at,
-                        tau + (size_t)k * d);
+      ambulo__load_take(model, pose.frames, link, q + (size_t)k * d, load->force + at,
+                        load->moment + at, tau + (size_t)k * d);
     }
   }
   ambulo__pose_free(&pose);

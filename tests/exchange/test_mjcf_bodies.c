@@ -239,11 +239,16 @@ static void included_files(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(as_mujoco),      cmocka_unit_test(functions_as_mujoco), cmocka_unit_test(limits),
-      cmocka_unit_test(what_is_driven), cmocka_unit_test(solids),
-      cmocka_unit_test(settings),       cmocka_unit_test(what_is_as_good_as_none),
-      cmocka_unit_test(masses),         cmocka_unit_test(keyframes_that_are_short),
-      cmocka_unit_test(what_is_wrong),  cmocka_unit_test(included_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(as_mujoco),
+                                     cmocka_unit_test(functions_as_mujoco),
+                                     cmocka_unit_test(limits),
+                                     cmocka_unit_test(what_is_driven),
+                                     cmocka_unit_test(solids),
+                                     cmocka_unit_test(settings),
+                                     cmocka_unit_test(what_is_as_good_as_none),
+                                     cmocka_unit_test(masses),
+                                     cmocka_unit_test(keyframes_that_are_short),
+                                     cmocka_unit_test(what_is_wrong),
+                                     cmocka_unit_test(included_files)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

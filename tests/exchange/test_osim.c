@@ -257,11 +257,12 @@ static void as_defined(const char *path) {
   assert_int_equal(c.status, AMBULO_OK);
   for (int seed = 0; seed < 4; seed++) compare_at(c.model, seed);
   static const double opensim[COORDINATES] = {
-      27.2449203475878, 150.121651051138, -6.38581752334863, -33.5965541283971, -0.98287858995573,
-      41.1399297687702, 36.8531914570125, 14.1683031765468, -0.071916152532161, 0.0105599679284223,
-      60.1001742303382, -9.30217091750332, 1.73058212786915, -2.74031898675325, 0.10914646339516,
-      -1.9316065911607, -1.1786537481667, 0.018000465936255, 0.208939252878585, 4.74779577075262,
-      8.59189840699998, 0.173672874955789};
+      27.2449203475878,   150.121651051138,   -6.38581752334863, -33.5965541283971,
+      -0.98287858995573,  41.1399297687702,   36.8531914570125,  14.1683031765468,
+      -0.071916152532161, 0.0105599679284223, 60.1001742303382,  -9.30217091750332,
+      1.73058212786915,   -2.74031898675325,  0.10914646339516,  -1.9316065911607,
+      -1.1786537481667,   0.018000465936255,  0.208939252878585, 4.74779577075262,
+      8.59189840699998,   0.173672874955789};
   assert_torques(c.model, opensim, COORDINATES, 1e-12);
   import_shut(&c);
 }
@@ -299,7 +300,8 @@ static void limits(void **state) {
 static void changes_are_named(void **state) {
   (void)state;
   static const char *const told[] = {
-      "every_joint_v4.osim:319:13: warning: stretch is no axis' own angle or length: a link without "
+      "every_joint_v4.osim:319:13: warning: stretch is no axis' own angle or length: a link "
+      "without "
       "mass has it",
       "lock_turn is locked in the source: it is held at 0.4 (--unlock: it moves)",
       "1 SpringGeneralizedForce (muscles and other forces) is left out"};
@@ -350,7 +352,8 @@ static void what_cannot_follow(void **state) {
   import_shut(&c);
   c = import_good(state, KNEE("<PolynomialFunction><coefficients>1 0 0 0 0 0</coefficients>"
                               "</PolynomialFunction>"));
-  assert_told(&c, "translation2 follows q by a PolynomialFunction: frozen at q = 0; over its range");
+  assert_told(&c,
+              "translation2 follows q by a PolynomialFunction: frozen at q = 0; over its range");
   import_shut(&c);
   c = import_good(state, KNEE("<PolynomialFunction><coefficients>1 0 0 0 0.25</coefficients>"
                               "</PolynomialFunction>"));
@@ -364,9 +367,9 @@ static void what_cannot_follow(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(version_3), cmocka_unit_test(version_4),
-                                     cmocka_unit_test(limits), cmocka_unit_test(changes_are_named),
-                                     cmocka_unit_test(other_choices),
-                                     cmocka_unit_test(what_cannot_follow)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(version_3),     cmocka_unit_test(version_4),
+      cmocka_unit_test(limits),        cmocka_unit_test(changes_are_named),
+      cmocka_unit_test(other_choices), cmocka_unit_test(what_cannot_follow)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

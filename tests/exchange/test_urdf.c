@@ -190,23 +190,22 @@ static void limits(void **state) {
 static void followers(void **state) {
   static const struct {
     const char *type, *mimic, *other, *text, *said;
-  } cases[] = {
-      {"prismatic", "joint='lead' multiplier='-2' offset='1'", "",
-       "coupled: {to: lead, polynomial: [1, -0.0349065850398866]}", NULL},
-      {"revolute", "joint='other' multiplier='2' offset='1'",
-       "<mimic joint='lead' multiplier='3' offset='-1'/>",
-       "coupled: {to: lead, polynomial: [-57.2957795130823, 6]}", NULL},
-      {"revolute", "joint='none' offset='0.5'", "", NULL,
-       "follow follows none, which does not move: it is held at 0.5"},
-      {"revolute", "joint='other'", "<mimic joint='follow'/>", NULL,
-       "which follows it in turn: it is held at 0"}};
+  } cases[] = {{"prismatic", "joint='lead' multiplier='-2' offset='1'", "",
+                "coupled: {to: lead, polynomial: [1, -0.0349065850398866]}", NULL},
+               {"revolute", "joint='other' multiplier='2' offset='1'",
+                "<mimic joint='lead' multiplier='3' offset='-1'/>",
+                "coupled: {to: lead, polynomial: [-57.2957795130823, 6]}", NULL},
+               {"revolute", "joint='none' offset='0.5'", "", NULL,
+                "follow follows none, which does not move: it is held at 0.5"},
+               {"revolute", "joint='other'", "<mimic joint='follow'/>", NULL,
+                "which follows it in turn: it is held at 0"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char text[2000];
-    (void)snprintf(text, sizeof text,
-                   ROBOT(LINK("a") LINK("b") LINK("c") LINK("d") JOINT("lead", "revolute", "a", "b", "")
-                             JOINT("follow", "%s", "b", "c", "<mimic %s/>")
-                                 JOINT("other", "revolute", "b", "d", "%s")),
-                   cases[i].type, cases[i].mimic, cases[i].other);
+    (void)snprintf(
+        text, sizeof text,
+        ROBOT(LINK("a") LINK("b") LINK("c") LINK("d") JOINT("lead", "revolute", "a", "b", "") JOINT(
+            "follow", "%s", "b", "c", "<mimic %s/>") JOINT("other", "revolute", "b", "d", "%s")),
+        cases[i].type, cases[i].mimic, cases[i].other);
     import_case c = import_good(state, text);
     if (cases[i].said) assert_told(&c, cases[i].said);
     if (cases[i].text) assert_non_null(strstr(c.text, cases[i].text));

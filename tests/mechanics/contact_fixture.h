@@ -1,10 +1,10 @@
 /* tests/mechanics/contact_fixture.h - random trees on contacts, and the shipped bodies.
  *
  * One to six contacts act on any links: on limbs, on each other's ancestors, on the same link, on
- * massless links, or on the world. From number contact_coupled_cases on, some joints are functions of
- * coordinates. They lie below or beside the centre of mass of their lane. In
- * lane 0 the first contact is alone, in lane 1 the last; in lane 2 none has weight; in lane 3 the
- * weights are of very different sizes. */
+ * massless links, or on the world. From number contact_coupled_cases on, some joints are functions
+ * of coordinates. They lie below or beside the centre of mass of their lane. In lane 0 the first
+ * contact is alone, in lane 1 the last; in lane 2 none has weight; in lane 3 the weights are of
+ * very different sizes. */
 #ifndef TESTS_MECHANICS_CONTACT_FIXTURE_H
 #define TESTS_MECHANICS_CONTACT_FIXTURE_H
 
@@ -16,7 +16,12 @@
 #include "mechanics/plan_layout.h"
 #include "support/contact_reference.h"
 
-enum { contact_coupled_cases = 150, contact_case_count = 210, contact_max_rows = 240, shipped_contact_count = 4 };
+enum {
+  contact_coupled_cases = 150,
+  contact_case_count = 210,
+  contact_max_rows = 240,
+  shipped_contact_count = 4
+};
 enum { alone_first = 0, alone_last = 1, in_flight = 2, uneven = 3 };
 
 static const char *const contact_bodies[shipped_contact_count] = {
@@ -105,8 +110,7 @@ static inline void contact_load(contact_case *c, random_source *source) {
     if (number % 3 == 0 && number % 40 < 30) {
       random_tree_put_on_root(&b->tree, 31 * (uint64_t)number + 2);
     }
-    if (number >= contact_coupled_cases)
-      random_tree_couple(&b->tree, 23 * (uint64_t)number + 7);
+    if (number >= contact_coupled_cases) random_tree_couple(&b->tree, 23 * (uint64_t)number + 7);
     assert_int_equal(ambulo_model_create(&b->tree.definition, NULL, NULL, &b->model), AMBULO_OK);
     c->contacts.count = 1 + number % 6;
   } else {

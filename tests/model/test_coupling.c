@@ -27,7 +27,8 @@ static void curve_make(curve *c, uint64_t seed, int count) {
   c->coupling = (ambulo__coupling){0, count + 1, c->pieces};
 }
 
-/* Through its points, straight beyond its ends; value, slope and curvature go on at inner points. */
+/* Through its points, straight beyond its ends; value, slope and curvature go on at inner points.
+ */
 static void splines_are_smooth_and_straight_outside(void **state) {
   (void)state;
   for (int count = 2; count <= most; count++) {

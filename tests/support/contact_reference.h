@@ -84,8 +84,7 @@ static inline void reference_subtract(const ambulo_model *model, const link_stat
                                       const reference_wrench *w, scalar *tau) {
   for (; link >= 0; link = model->links[link].parent) {
     int k = ambulo__moved_by(model, link);
-    if (k >= 0)
-      tau[k] -= states[link].slope * reference_generalized_force(model, states, link, w);
+    if (k >= 0) tau[k] -= states[link].slope * reference_generalized_force(model, states, link, w);
   }
 }
 

@@ -210,9 +210,10 @@ static inline int random_tree_put_on_root(random_tree *tree, uint64_t seed) {
 static inline void random_function(random_source *source, ambulo_link *link, double *spline) {
   int count = random_below(source, random_max_knots + 1);
   double x = random_between(source, -3, 0), scale = 1;
-  for (int i = 0; i < 5; i++, scale *= i > 1 ? 0.01 : 1)
+  for (int i = 0; i<5; i++, scale *= i> 1 ? 0.01 : 1)
     link->polynomial[i] = scale * random_between(source, -1, 1);
-  if (random_unit(source) < 0.3) link->polynomial[2] = link->polynomial[3] = link->polynomial[4] = 0;
+  if (random_unit(source) < 0.3)
+    link->polynomial[2] = link->polynomial[3] = link->polynomial[4] = 0;
   if (count < 2) return;
   for (int k = 0; k < count; k++) {
     spline[2 * k] = x;

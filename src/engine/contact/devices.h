@@ -129,7 +129,7 @@ typedef struct ambulo__path_joint {
   int coordinate, turns;
   const ambulo__coupling *coupling; /* of a coupled joint, which the coordinate moves; NULL */
   double angle, offset;             /* theta, d at q = 0 */
-  double after[12];     /* to the next joint, rows of 3 x 4; behind the last: to the point */
+  double after[12]; /* to the next joint, rows of 3 x 4; behind the last: to the point */
 } ambulo__path_joint;
 
 typedef struct ambulo__device_path {

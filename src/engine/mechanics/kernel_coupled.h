@@ -177,7 +177,7 @@ typedef struct coupled_entry {
   wide q, qd, qdd;
 } coupled_entry;
 
-/* One entry of `open`, by the motion of the coordinates. */
+/* (K.3) One entry of `open`, by the motion of the coordinates. */
 AMBULO__INLINE coupled_entry coupled_term(const struct ambulo__coupled_plan *c,
                                           const ambulo__fold *fold, const double *scratch) {
   const wide zero = {0};
@@ -199,7 +199,7 @@ AMBULO__INLINE coupled_entry coupled_term(const struct ambulo__coupled_plan *c,
 }
 
 static void coupled_entries(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
-                                  const double *scratch) {
+                            const double *scratch) {
   const struct ambulo__coupled_plan *c = plan->coupled;
   for (int e = 0; e < c->entry_count; e++) {
     coupled_entry sum = {{0}, {0}, {0}};

@@ -30,16 +30,16 @@ AMBULO__INLINE void local_forward_part(const ambulo__plan *plan, int keep, const
   if (plan->points > 0) local_places(plan, keep, 0, out, scratch);
 }
 
-static void run_outputs(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
-                    const double *ground, double *out, double *scratch) {
+static void run_outputs(const ambulo__plan *plan, const double *q, const double *qd,
+                        const double *qdd, const double *ground, double *out, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
     local_forward_part(plan, 0, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane),
                        out + lane, scratch + lane);
   }
 }
 
-static void run_forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
-                    const double *ground, double *out, double *scratch) {
+static void run_forward(const ambulo__plan *plan, const double *q, const double *qd,
+                        const double *qdd, const double *ground, double *out, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
     local_forward_part(plan, 1, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane),
                        out + lane, scratch + lane);
@@ -47,8 +47,8 @@ static void run_forward(const ambulo__plan *plan, const double *q, const double 
 }
 
 static void run_reverse(const ambulo__plan *plan, const double *qd, const double *qdd,
-                    const double *ground, const double *weights, double *gq, double *gqd,
-                    double *gqdd, double *scratch) {
+                        const double *ground, const double *weights, double *gq, double *gqd,
+                        double *gqdd, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
     const local_arrays arrays = {qd + lane,  qdd + lane,  weights + lane, gq + lane,
                                  gqd + lane, gqdd + lane, scratch + lane};
@@ -56,8 +56,9 @@ static void run_reverse(const ambulo__plan *plan, const double *qd, const double
   }
 }
 
-static void run_jacobian(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
-                     const double *ground, double *jq, double *jqd, double *jqdd, double *scratch) {
+static void run_jacobian(const ambulo__plan *plan, const double *q, const double *qd,
+                         const double *qdd, const double *ground, double *jq, double *jqd,
+                         double *jqdd, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
     const world_inputs x = {q + lane, qd + lane, qdd + lane};
     local_angles(&plan->local, x.q, scratch + lane);

@@ -77,7 +77,7 @@ static ambulo__piece straight(double from, double at, double value, double slope
   return (ambulo__piece){from, at, {value, slope, 0.0, 0.0, 0.0}};
 }
 
-/* Piece 0 stands before the first point, piece i + 1 begins at point i. */
+/* (K.0) Piece 0 stands before the first point, piece i + 1 begins at point i. */
 void ambulo__spline_fill(const double *points, int count, ambulo__piece *p) {
   int n = count - 1;
   if (count > 2) {
@@ -91,11 +91,10 @@ void ambulo__spline_fill(const double *points, int count, ambulo__piece *p) {
   for (int i = n - 1; i >= 0; i--) {
     double x = x_of(points, i), s = p[i].c[2], next = p[i + 1].c[2];
     h = x_of(points, i + 1) - x;
-    p[i + 1] =
-        (ambulo__piece){x,
-                        x,
-                        {y_of(points, i), chord(points, i) - h * (next + 2.0 * s), 3.0 * s,
-                         (next - s) / h, 0.0}};
+    p[i + 1] = (ambulo__piece){
+        x,
+        x,
+        {y_of(points, i), chord(points, i) - h * (next + 2.0 * s), 3.0 * s, (next - s) / h, 0.0}};
   }
   p[0] = straight(-HUGE_VAL, x_of(points, 0), y_of(points, 0), p[1].c[1]);
 }

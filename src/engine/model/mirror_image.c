@@ -354,8 +354,8 @@ static int compare_followers(comparison *c, int i, double *followed) {
 /* Each pair once; what is its own image with the sign turned is so at 0 alone. */
 static void compare_functions(comparison *c) {
   const ambulo_model *model = c->model;
-  double *followed = ambulo__alloc(&c->segments.allocator, (size_t)model->coordinate_count,
-                                   sizeof *followed);
+  double *followed =
+      ambulo__alloc(&c->segments.allocator, (size_t)model->coordinate_count, sizeof *followed);
   if (!followed) c->status = AMBULO_E_MEMORY;
   for (int i = 0; followed && i < model->coordinate_count && !c->status; i++) {
     const ambulo_coordinate *own = &model->coordinates[i];

@@ -187,8 +187,9 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   m->patches = ambulo__alloc(a, (size_t)d->patch_count, sizeof *m->patches);
   m->capsules = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsules);
   m->capsule_point = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsule_point);
-  return m->couplings && m->splines && m->pieces && m->text && m->links && m->coordinates && m->coordinate_link && m->coordinate_written &&
-         m->points && m->neutral && m->feet && m->patches && m->capsules && m->capsule_point;
+  return m->couplings && m->splines && m->pieces && m->text && m->links && m->coordinates &&
+         m->coordinate_link && m->coordinate_written && m->points && m->neutral && m->feet &&
+         m->patches && m->capsules && m->capsule_point;
 }
 
 static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {

@@ -34,10 +34,10 @@ struct ambulo_model {
   int load_count;
   ambulo_link *links; /* [link_count] */
   int link_count;
-  ambulo__coupling *couplings; /* [link_count] */
-  int coupled_count;           /* of links that are coupled */
-  double *splines;             /* points of all functions, which links point into */
-  ambulo__piece *pieces;       /* of all functions */
+  ambulo__coupling *couplings;    /* [link_count] */
+  int coupled_count;              /* of links that are coupled */
+  double *splines;                /* points of all functions, which links point into */
+  ambulo__piece *pieces;          /* of all functions */
   ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */
   int *coordinate_link;           /* [coordinate_count]: the link that carries coordinate i */
   int *coordinate_written;        /* [coordinate_count]: the link that its file describes it with */

@@ -43,10 +43,11 @@ static ambulo_status check_sizes(ambulo__checker *c) {
                          d->link_count);
   }
   if (joints != d->coordinate_count) {
-    return ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
-                         "one coordinate belongs to each revolute or prismatic link that is not coupled (got %d "
-                         "coordinates for %d such links)",
-                         d->coordinate_count, joints);
+    return ambulo__error(
+        c->diagnostics, AMBULO_E_MODEL, place, NULL,
+        "one coordinate belongs to each revolute or prismatic link that is not coupled (got %d "
+        "coordinates for %d such links)",
+        d->coordinate_count, joints);
   }
   return AMBULO_OK;
 }
@@ -308,13 +309,12 @@ static void check_coupling(ambulo__checker *c, int i) {
   }
   const char *fault = link->spline_count != 0 ? fault_of_spline(link) : fault_of_polynomial(link);
   if (!fault) return;
-  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
-                            "the function of coupled link '%s' is not usable (its %s has %d "
-                            "numbers); %s",
-                            name_of(c, i), link->spline_count != 0 ? "spline" : "polynomial",
-                            link->spline_count != 0 ? 2 * link->spline_count
-                                                    : AMBULO__COUPLING_TERMS,
-                            fault);
+  c->status = ambulo__error(
+      c->diagnostics, AMBULO_E_MODEL, place, NULL,
+      "the function of coupled link '%s' is not usable (its %s has %d "
+      "numbers); %s",
+      name_of(c, i), link->spline_count != 0 ? "spline" : "polynomial",
+      link->spline_count != 0 ? 2 * link->spline_count : AMBULO__COUPLING_TERMS, fault);
 }
 
 static void check_link(ambulo__checker *c, int i) {
