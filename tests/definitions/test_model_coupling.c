@@ -4,8 +4,7 @@
 #define COUPLED(joint, more)                                                                       \
   MODEL_HEAD "links:\n"                                                                            \
              "  - {name: hip, parent: none, joint: revolute, dh: [0, 0, 0, 0], " MODEL_BODY "}\n"  \
-             "  - {name: lift, parent: hip, joint: prismatic, dh: [0, 0, 0, 0], " MODEL_BODY       \
-             "}\n"                                                                                 \
+             "  - {name: lift, parent: hip, joint: prismatic, dh: [0, 0, 0, 0], " MODEL_BODY "}\n" \
              "  - {name: shank, parent: hip, joint: " joint ", " MODEL_BODY ", " more "}\n"
 #define DH "dh: [0, 0, 0.1, 0], "
 
@@ -76,29 +75,29 @@ static void refused(const char *text, ambulo_status status, const char *said) {
 static void what_is_refused(void **state) {
   (void)state;
   refused(COUPLED("revolute", DH "coupled: {to: hop, polynomial: [0, 1]}"), AMBULO_E_MODEL,
-            "unknown coordinate (got 'hop')");
+          "unknown coordinate (got 'hop')");
   refused(COUPLED("revolute", DH "coupled: {to: hip}"), AMBULO_E_SCHEMA,
-            "link 'shank' is coupled by no function; expected one of `spline` and `polynomial`");
+          "link 'shank' is coupled by no function; expected one of `spline` and `polynomial`");
   refused(COUPLED("revolute", DH "coupled: {to: hip, polynomial: [1], spline: [[0, 1], [1, 2]]}"),
-            AMBULO_E_SCHEMA, "link 'shank' is coupled by both");
+          AMBULO_E_SCHEMA, "link 'shank' is coupled by both");
   refused(COUPLED("revolute", DH "coupled: {polynomial: [1]}"), AMBULO_E_SCHEMA,
-            "missing required key 'to'");
+          "missing required key 'to'");
   refused(COUPLED("fixed", DH "coupled: {to: hip, polynomial: [1]}"), AMBULO_E_SCHEMA,
-            "link 'shank' is coupled and fixed");
+          "link 'shank' is coupled and fixed");
   refused(COUPLED("revolute", DH "coordinate: {name: k}, coupled: {to: hip, polynomial: [1]}"),
-            AMBULO_E_SCHEMA, "link 'shank' is coupled and has a coordinate");
+          AMBULO_E_SCHEMA, "link 'shank' is coupled and has a coordinate");
   refused(COUPLED("revolute", DH "coupled: {to: hip, polynomial: []}"), AMBULO_E_SCHEMA,
-            "a polynomial without coefficients; expected 1 to 5 numbers");
+          "a polynomial without coefficients; expected 1 to 5 numbers");
   refused(COUPLED("revolute", DH "coupled: {to: hip, polynomial: [1, 2, 3, 4, 5, 6]}"),
-            AMBULO_E_LIMIT, "too many polynomial (got 6); expected at most 5");
+          AMBULO_E_LIMIT, "too many polynomial (got 6); expected at most 5");
   refused(COUPLED("revolute", DH "coupled: {to: hip, spline: [[0, 1]]}"), AMBULO_E_SCHEMA,
-            "a spline has 1 points; expected 2 to 1024");
+          "a spline has 1 points; expected 2 to 1024");
   refused(COUPLED("revolute", DH "coupled: {to: hip, spline: [[0, 1], [10, 2], [5, 3]]}"),
-            AMBULO_E_SCHEMA, "the points of a spline do not ascend (got 5 after 10)");
+          AMBULO_E_SCHEMA, "the points of a spline do not ascend (got 5 after 10)");
   refused(COUPLED("revolute", DH "coupled: {to: hip, spline: [[0, 1], [1]]}"), AMBULO_E_SCHEMA,
-            "expected");
+          "expected");
   refused(COUPLED("revolute", DH "coupled: {to: shank, polynomial: [1]}"), AMBULO_E_MODEL,
-            "unknown coordinate (got 'shank')");
+          "unknown coordinate (got 'shank')");
 }
 
 int main(void) {

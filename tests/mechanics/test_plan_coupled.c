@@ -1,5 +1,5 @@
-/* Rows, shared masses and memory of plans with coupled joints; what their kernels compute is compared
- * with the reference in test_kernels_*.c. */
+/* Rows, shared masses and memory of plans with coupled joints; what their kernels compute is
+ * compared with the reference in test_kernels_*.c. */
 #include "contact_fixture.h"
 #include "mechanics/plan_coupled.h"
 #include "support/fail_alloc.h"
@@ -94,9 +94,8 @@ static void failed_allocations_unwind(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(joints_and_followers),
-                                     cmocka_unit_test(rows_are_those_of_their_joints),
-                                     cmocka_unit_test(a_wrench_has_its_place),
-                                     cmocka_unit_test(failed_allocations_unwind)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(joints_and_followers), cmocka_unit_test(rows_are_those_of_their_joints),
+      cmocka_unit_test(a_wrench_has_its_place), cmocka_unit_test(failed_allocations_unwind)};
   return cmocka_run_group_tests_name("mechanics/plan coupled", tests, NULL, NULL);
 }
