@@ -1,9 +1,9 @@
 /* exchange/mjcf.c - the rigid part of a MuJoCo model (MJCF): settings, and what is left out.
  *
  * Bodies with their joints, masses and geoms (mjcf_bodies.c), default classes, included files,
- * torque limits from actuators; joints that an equality makes a polynomial of another. Angles are
- * degrees unless the compiler says radian; z is up. Tendons, other equalities, springs of joints
- * and contacts are not carried over.
+ * torque limits from actuators; joints that an equality makes a polynomial of another, or closes to
+ * a loop. Angles are degrees unless the compiler says radian; z is up. Tendons, other equalities,
+ * springs of joints and contacts are not carried over.
  */
 #include "exchange/mjcf.h"
 

@@ -192,7 +192,7 @@ static int drives(const transform_axis *axes, int c, int *turns) {
 }
 
 /* A coordinate without an axis of its own: a link without mass has it. 0: there is no place. */
-static int put_bearer(building *b, int c, int turns) {
+static int put_carrier(building *b, int c, int turns) {
   ambulo__osim_coordinate *coordinate = &b->coordinates[c];
   const double axis[3] = {0, 0, 1};
   ambulo__rigid none = ambulo__rigid_identity();
@@ -221,7 +221,7 @@ static void choose(building *b, transform_axis *axes) {
       other = i;
       if (fabs(axes[i].slope) == 1.0) owner = i;
     }
-    if (owner < 0 && drives(axes, c, &turns) && !put_bearer(b, c, turns)) owner = other;
+    if (owner < 0 && drives(axes, c, &turns) && !put_carrier(b, c, turns)) owner = other;
     for (int i = 0; i < AXES; i++)
       if (axes[i].coordinate == c && i != owner && axes[i].slope != 0.0) axes[i].linear = 0;
     if (owner < 0 && !b->has_link[c])
@@ -319,35 +319,6 @@ static int add_joint(ambulo__osim *o, const ambulo__osim_joint *joint, int paren
 
 /* ------------------------------------------------------------------------ reading */
 
-static void read_body(ambulo__osim *o, const ambulo__osim_body *body) {
-  static const char *const entries[] = {"inertia_xx", "inertia_yy", "inertia_zz",
-                                        "inertia_xy", "inertia_xz", "inertia_yz"};
-  const ambulo__xml_node *node = body->node, *mass = ambulo__xml_child(node, "mass");
-  ambulo__part part = {0};
-  if (!mass) {
-    ambulo__xml_error(o->xml, node, AMBULO_E_SCHEMA, NULL,
-                      "body '%.60s' has no mass; expected <mass>", body->name);
-    return;
-  }
-  (void)ambulo__xml_child_vector(o->xml, node, "mass", 1, 0, &part.mass);
-  (void)ambulo__xml_child_vector(o->xml, node, "mass_center", 3, 0, part.com);
-  int listed = ambulo__xml_child(node, "inertia") != NULL;
-  if (listed) (void)ambulo__xml_child_vector(o->xml, node, "inertia", 6, 0, part.inertia);
-  for (int i = 0; i < 6 && !listed; i++) {
-    if (ambulo__xml_child(node, entries[i])) {
-      (void)ambulo__xml_child_vector(o->xml, node, entries[i], 1, 0, &part.inertia[i]);
-    } else if (i < 3 && part.mass > 0.0) {
-      ambulo__xml_error(o->xml, node, AMBULO_E_SCHEMA, NULL,
-                        "body '%.60s' has a mass but no inertia; expected <inertia> with six "
-                        "numbers, or <%s>",
-                        body->name, entries[i]);
-      return;
-    }
-  }
-  const ambulo__xml_node *inertia = ambulo__xml_child(node, listed ? "inertia" : entries[0]);
-  ambulo__tree_body(o->tree, body->link, &part, mass, inertia ? inertia : mass);
-}
-
 /* A body without a joint floats: OpenSim gives it six coordinates, and so is done here. */
 static int float_freely(ambulo__osim *o, ambulo__osim_body *body, int parent) {
   ambulo__chain chain = ambulo__chain_begin(o->tree, parent, body->node);
@@ -367,7 +338,7 @@ static int hang(ambulo__osim *o, int i) {
   body->link = body->joint < 0 ? float_freely(o, body, parent)
                                : add_joint(o, &o->joints[body->joint], parent);
   if (body->link < 0) return 0;
-  read_body(o, body);
+  ambulo__osim_read_body(o, body);
   return 1;
 }
 

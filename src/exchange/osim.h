@@ -37,6 +37,8 @@ typedef struct ambulo__osim {
 
 /* Both lists; an error for what is no tree of bodies. */
 void ambulo__osim_collect(ambulo__osim *o);
+/* Mass and inertia of a body that is in the tree, added to its link's. */
+void ambulo__osim_read_body(ambulo__osim *o, const ambulo__osim_body *body);
 /* Body and placement of a frame that `text` names ("pelvis", "/bodyset/pelvis", "../hip_offset"),
  * looked for among the frames of `scope` first; the body, or -1 after an error at `node`. */
 int ambulo__osim_frame(ambulo__osim *o, const ambulo__xml_node *scope, const ambulo__xml_node *node,

@@ -3,9 +3,9 @@
  * A case is a tree, its plan, and one block of states in one of the pose regimes; from number
  * rooted_cases on, the tree stands on a chain of sliders along (mostly) world axes; from number
  * coupled_cases on, some joints of one or the other kind are functions of coordinates. One in three
- * has drives. The reference
- * gives the outputs of any lane, and their Jacobians by complex steps of 1e-40, which are as
- * accurate as the values themselves. Differences are relative to the largest entry of a group
+ * has drives. The reference gives the outputs of any lane, and their Jacobians by complex steps of
+ * 1e-40, which are as accurate as the values themselves. Differences are relative to the largest
+ * entry of a group
  * (tau and wrench; points). */
 #ifndef TESTS_MECHANICS_KERNEL_FIXTURE_H
 #define TESTS_MECHANICS_KERNEL_FIXTURE_H

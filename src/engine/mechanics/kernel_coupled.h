@@ -177,7 +177,7 @@ typedef struct coupled_entry {
   wide q, qd, qdd;
 } coupled_entry;
 
-/* One entry of `open`, by the motion of the coordinates. */
+/* (K.3) One entry of `open`, by the motion of the coordinates. */
 AMBULO__INLINE coupled_entry coupled_term(const struct ambulo__coupled_plan *c,
                                           const ambulo__fold *fold, const double *scratch) {
   const wide zero = {0};

@@ -78,11 +78,12 @@ static scalar component(const double *values, int is_complex, int index) {
 }
 
 /* A joint's value and rates: those of its coordinate, or, of a coupled one,
- *   theta = f(q),  theta_d = f' qd,  theta_dd = f' qdd + f'' qd^2                     (K.1) */
+ *   theta = f(q),  theta_d = f' qd,  theta_dd = f' qdd + f'' qd^2 */
 typedef struct joint_motion {
   scalar q, v, w, slope; /* slope: f' */
 } joint_motion;
 
+/* (K.1) */
 static joint_motion couple(const ambulo__coupling *coupling, scalar q, scalar v, scalar w) {
   const ambulo__piece *piece = ambulo__coupling_piece(coupling, creal(q));
   const double *c = piece->c;

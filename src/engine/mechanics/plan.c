@@ -250,6 +250,37 @@ done:
 }
 
 static ambulo_status create(const ambulo_model *model, const ambulo__footing *footing,
+                            const ambulo_allocator *allocator, ambulo__plan **out);
+
+/* The plan of a body with coupled joints, around that of the body with a coordinate for every
+ * joint. */
+static ambulo_status create_coupled(const ambulo_model *model, const ambulo__footing *footing,
+                                    ambulo__plan *plan) {
+  const ambulo_allocator *a = &plan->allocator;
+  ambulo_model open = *model;
+  plan->coupled = ambulo__alloc(a, 1, sizeof *plan->coupled);
+  open.links = ambulo__alloc(a, (size_t)model->link_count, sizeof *open.links);
+  size_t joints = (size_t)model->coordinate_count + (size_t)model->coupled_count;
+  open.coordinates = ambulo__alloc(a, joints, sizeof *open.coordinates);
+  open.coordinate_count = open.coupled_count = 0;
+  ambulo_status status =
+      plan->coupled && open.links && open.coordinates ? AMBULO_OK : AMBULO_E_MEMORY;
+  for (int i = 0; !status && i < model->link_count; i++) {
+    const int own = model->links[i].coordinate;
+    open.links[i] = model->links[i];
+    if (open.links[i].type == AMBULO_FIXED) continue;
+    open.coordinates[open.coordinate_count] =
+        own >= 0 ? model->coordinates[own] : ambulo_coordinate_default(); /* without a drive */
+    open.links[i].coordinate = open.coordinate_count++;
+  }
+  if (!status) status = create(&open, footing, a, &plan->coupled->open);
+  if (!status) status = ambulo__coupled_plan_build(plan, model, footing);
+  ambulo__free(a, open.links);
+  ambulo__free(a, open.coordinates);
+  return status;
+}
+
+static ambulo_status create(const ambulo_model *model, const ambulo__footing *footing,
                             const ambulo_allocator *allocator, ambulo__plan **out) {
   ambulo_status status = AMBULO_E_MEMORY;
   ambulo_allocator memory = ambulo__allocator_or_default(allocator);
@@ -257,7 +288,7 @@ static ambulo_status create(const ambulo_model *model, const ambulo__footing *fo
   if (!plan) return AMBULO_E_MEMORY;
   plan->allocator = memory;
   if (model->coupled_count > 0) {
-    status = ambulo__coupled_plan_build(plan, model, footing);
+    status = create_coupled(model, footing, plan);
     if (status != AMBULO_OK) goto failed;
     *out = plan;
     return AMBULO_OK;
@@ -308,6 +339,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo_allocator memory = plan->allocator;
   ambulo__plan_steps_free(plan);
   ambulo__plan_local_free(plan);
+  if (plan->coupled) ambulo__plan_free(plan->coupled->open);
   ambulo__coupled_plan_free(plan);
   ambulo__free(&memory, plan->frames);
   ambulo__free(&memory, plan->joints);

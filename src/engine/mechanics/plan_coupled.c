@@ -16,36 +16,7 @@ static int takes_place(size_t *used, int entries) {
   return at;
 }
 
-/* ------------------------------------------------------------------ the open body */
-
-/* The model with a coordinate for every joint; coupled ones have no drive. */
-static ambulo_status open_plan(ambulo__plan *plan, const ambulo_model *model,
-                               const ambulo__footing *footing) {
-  struct ambulo__coupled_plan *c = plan->coupled;
-  const ambulo_allocator *a = &plan->allocator;
-  ambulo_model open = *model;
-  size_t joints = (size_t)model->coordinate_count + (size_t)model->coupled_count;
-  open.links = ambulo__alloc(a, (size_t)model->link_count, sizeof *open.links);
-  open.coordinates = ambulo__alloc(a, joints, sizeof *open.coordinates);
-  ambulo_status status = open.links && open.coordinates ? AMBULO_OK : AMBULO_E_MEMORY;
-  open.coordinate_count = open.coupled_count = 0;
-  for (int i = 0; i < model->link_count && status == AMBULO_OK; i++) {
-    const ambulo_link *link = &model->links[i];
-    open.links[i] = *link;
-    if (link->type == AMBULO_FIXED) continue;
-    open.coordinates[open.coordinate_count] =
-        link->coordinate >= 0 ? model->coordinates[link->coordinate] : ambulo_coordinate_default();
-    open.links[i].coordinate = open.coordinate_count++;
-  }
-  if (status == AMBULO_OK)
-    status = footing->count > 0
-                 ? ambulo__plan_create_contacts(&open, footing->link, footing->count,
-                                                footing->moment_arm, footing->slant, a, &c->open)
-                 : ambulo__plan_create(&open, a, &c->open);
-  ambulo__free(a, open.links);
-  ambulo__free(a, open.coordinates);
-  return status;
-}
+/* -------------------------------------------------------------------- the joints */
 
 static void set_follower(ambulo__follower *follower, const ambulo__coupling *coupling, int joint,
                          ambulo__piece **pieces) {
@@ -233,20 +204,18 @@ static void place(ambulo__plan *plan) {
   c->jqd_at = takes_place(used, c->open->dynamic_count);
   c->jqdd_at = takes_place(used, c->open->dynamic_count);
   c->open_at = (int)*used;
-  *used += ambulo__plan_scratch(c->open);
+  *used += c->open->scratch;
 }
 
 ambulo_status ambulo__coupled_plan_build(ambulo__plan *plan, const ambulo_model *model,
                                          const ambulo__footing *footing) {
-  plan->coupled = ambulo__alloc(&plan->allocator, 1, sizeof *plan->coupled);
   plan->coordinates = model->coordinate_count;
   plan->points = model->point_count;
   plan->contacts = footing->count;
   plan->joints =
       ambulo__alloc(&plan->allocator, (size_t)plan->coordinates + 1, sizeof *plan->joints);
-  if (!plan->coupled || !plan->joints) return AMBULO_E_MEMORY;
-  ambulo_status status = open_plan(plan, model, footing);
-  if (status == AMBULO_OK) status = set_joints(plan, model);
+  if (!plan->joints) return AMBULO_E_MEMORY;
+  ambulo_status status = set_joints(plan, model);
   if (status != AMBULO_OK) return status;
   plan->mass = plan->coupled->open->mass;
   status = build_pattern(plan);
@@ -257,7 +226,6 @@ ambulo_status ambulo__coupled_plan_build(ambulo__plan *plan, const ambulo_model 
 void ambulo__coupled_plan_free(ambulo__plan *plan) {
   struct ambulo__coupled_plan *c = plan->coupled;
   if (!c) return;
-  ambulo__plan_free(c->open);
   ambulo__free(&plan->allocator, c->coordinate);
   ambulo__free(&plan->allocator, c->follower);
   ambulo__free(&plan->allocator, c->followers);

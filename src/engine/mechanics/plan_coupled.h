@@ -44,9 +44,10 @@ struct ambulo__coupled_plan {
 enum { follower_slopes = 5 * AMBULO__LANES };
 
 /* From a model with coupled joints, for ambulo__plan_create and its like; plan has nothing yet but
- * its allocator. Errors: E_MEMORY, E_ARGUMENT. */
+ * its allocator, and `coupled` with the plan `open`. Errors: E_MEMORY. */
 ambulo_status ambulo__coupled_plan_build(ambulo__plan *plan, const ambulo_model *model,
                                          const ambulo__footing *footing);
+/* All but `open`. */
 void ambulo__coupled_plan_free(ambulo__plan *plan);
 
 #endif

@@ -77,7 +77,7 @@ static ambulo__piece straight(double from, double at, double value, double slope
   return (ambulo__piece){from, at, {value, slope, 0.0, 0.0, 0.0}};
 }
 
-/* Piece 0 stands before the first point, piece i + 1 begins at point i. */
+/* (K.0) Piece 0 stands before the first point, piece i + 1 begins at point i. */
 void ambulo__spline_fill(const double *points, int count, ambulo__piece *p) {
   int n = count - 1;
   if (count > 2) {
