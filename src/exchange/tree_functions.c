@@ -110,28 +110,6 @@ double ambulo__tree_stands(const ambulo__tree *tree, int link, int start) {
   return ambulo__function_value(tree, &l->function, x);
 }
 
-static ambulo__rigid place_of(ambulo__tree *tree, int link, int start) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    double value = l->type == AMBULO_FIXED ? 0.0 : ambulo__tree_stands(tree, i, start);
-    if (value != 0.0) {
-      ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, value);
-      place = ambulo__rigid_times(&step, &place);
-    }
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
-}
-
-ambulo__rigid ambulo__tree_place(ambulo__tree *tree, int link) {
-  return place_of(tree, link, 0);
-}
-
-ambulo__rigid ambulo__tree_start_place(ambulo__tree *tree, int link) {
-  return place_of(tree, link, 1);
-}
-
 /* ----------------------------------------------------------------- what they follow */
 
 /* A joint that cannot follow stands where it would stand at the other's pose. */
