@@ -46,20 +46,35 @@ static double value_with(following *f, const ambulo_term *term) {
   return values[f->extended->definition.term_count - 1];
 }
 
-/* its gradient against central differences */
-static void check_gradient(const following *f, const char *name) {
-  ambulo_derivative_error errors[48];
-  int count = 0, found = 0;
-  assert_int_equal(ambulo_problem_check_derivatives(f->extended, f->workspace, f->plain.x, 0.0,
-                                                    errors, 48, &count),
+static double value_at(const following *f, const double *x) {
+  double values[16];
+  assert_int_equal(ambulo_problem_evaluate(f->extended, f->workspace, x, NULL, values, NULL),
                    AMBULO_OK);
-  for (int e = 0; e < count; e++) {
-    if (strcmp(errors[e].family, name) != 0) continue;
-    found = 1;
-    assert_true(fabs(errors[e].analytic) > 0.0);
-    assert_close(errors[e].error, 0.0, 1e-7);
+  return values[f->extended->definition.term_count - 1];
+}
+
+/* its gradient against central differences, by some of the unknowns */
+static void check_gradient(const following *f) {
+  const int n = f->extended->variables, term = f->extended->definition.term_count - 1;
+  double *gradient = calloc((size_t)n, sizeof *gradient), *x = calloc((size_t)n, sizeof *x);
+  const double h = 1e-5;
+  double size = 0.0;
+  memcpy(x, f->plain.x, (size_t)n * sizeof *x);
+  (void)value_at(f, x);
+  assert_int_equal(ambulo__term_gradient(f->workspace, term, gradient), AMBULO_OK);
+  for (int i = 0; i < n; i++) size = fmax(size, fabs(gradient[i]));
+  assert_true(size > 0.0);
+  for (int i = 0; i < n; i += 13) {
+    double kept = x[i];
+    x[i] = kept + h;
+    double ahead = value_at(f, x);
+    x[i] = kept - h;
+    double behind = value_at(f, x);
+    x[i] = kept;
+    assert_close((ahead - behind) / (2.0 * h), gradient[i], 1e-7 * size);
   }
-  assert_true(found);
+  free(gradient);
+  free(x);
 }
 
 static void term_close(following *f) {
@@ -92,7 +107,7 @@ static void forces_count_by_body_weights(void **state) {
     term.foot_reference = &reference[0][0][0];
     double value = value_with(&f, &term);
     assert_close(value, want, 1e-10 * want);
-    check_gradient(&f, "force_tracking");
+    check_gradient(&f);
     term_close(&f);
     close_kind(&f);
   }
@@ -130,7 +145,7 @@ static void centres_of_pressure_count_by_their_load(void **state) {
     term.foot_reference = &reference[0][0][0];
     double value = value_with(&f, &term);
     assert_close(value, want, 1e-9 * want);
-    check_gradient(&f, "pressure_tracking");
+    check_gradient(&f);
     term_close(&f);
     close_kind(&f);
   }
@@ -158,7 +173,7 @@ static void points_count_by_their_distance(void **state) {
   term.mark_reference = &reference[0][0][0];
   double value = value_with(&f, &term);
   assert_close(value, want, 1e-11 * want);
-  check_gradient(&f, "point_tracking");
+  check_gradient(&f);
   term_close(&f);
   close_kind(&f);
 }
