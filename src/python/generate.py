@@ -59,6 +59,7 @@ OWN = {
     ("ambulo_parameters", "start"), ("ambulo_report_options", "sensitivities"),
     ("ambulo_report_options", "muscles"),
     ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
+    ("ambulo_film_options", "progress"),
     ("ambulo_export_options", "inverse"), ("ambulo_export_options", "problem"),
 }
 
