@@ -19,8 +19,8 @@
 
 #include <stddef.h>
 
-/* What a geometry says of its mesh, STL (both kinds) or OBJ; read when it is asked for (a robot has
- * many, and feet few). */
+/* What a geometry says of its mesh, STL (both kinds), OBJ or COLLADA; read when it is asked for (a
+ * robot has many, and feet few). */
 typedef struct ambulo__mesh {
   const char *file; /* as the model names it: a path, package://PACKAGE/PATH, model:// or file:// */
   int tried;
@@ -226,12 +226,17 @@ ambulo__rigid ambulo__tree_pose_of(const ambulo__tree *tree, int link, int start
 /* Mass, centre of mass and inertia of a link and all that is fixed to it, in its frame. */
 void ambulo__tree_whole(const ambulo__tree *tree, int leader, ambulo__part *body);
 
-/* ---------------------------------- solids of feet (foot_meshes.c, foot_solids.c) */
+/* ----------------- solids of feet (foot_meshes.c, foot_collada.c, foot_solids.c) */
 
 /* The mesh of a solid, at its own size. None without memory, or where `file` is NULL or empty. */
 void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid *solid);
 /* Reads the points of a mesh, once; it has none where that cannot be. */
 void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh);
+
+/* The vertices of a COLLADA file, [*count][3] in the arena; untouched where there are none, or more
+ * than `most`. Returns how many it has. */
+size_t ambulo__collada_points(ambulo__arena *arena, const char *path, size_t most, double **points,
+                              int *count);
 
 /* Where the solids of a link touch the ground. */
 typedef struct ambulo__sole {
@@ -264,8 +269,9 @@ typedef struct ambulo__leg {
 /* The links that are feet; how many, 0: none. *legless: the body's lowest link is no limb's. */
 int ambulo__find_legs(ambulo__tree *tree, const double axes[3][3], ambulo__leg *legs, int most,
                       int *legless);
-/* Forward by what names say of left and right, else by the feet: changes tree->forward. */
-void ambulo__find_forward(ambulo__tree *tree);
+/* Forward by what names say of left and right, else by the feet: 1 if that changed tree->forward.
+ */
+int ambulo__find_forward(ambulo__tree *tree);
 /* Warns of feet that are not the lowest link of their side. */
 void ambulo__check_feet(ambulo__tree *tree, const double axes[3][3]);
 

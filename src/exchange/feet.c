@@ -99,7 +99,7 @@ static int find_sole(feet *f, const char *name, int link, ambulo__sole *sole) {
   const char *why = meshes ? "its geometry is a mesh that could not be read"
                            : "it has no geometry that touches the ground";
   ambulo__sole box;
-  if (ambulo__sole_of_inertia(t, link, (const double(*)[3])f->axes, 0.4 * height_of_body(f),
+  if (ambulo__sole_of_inertia(t, link, (const double(*)[3])f->axes, 0.25 * height_of_body(f),
                               &box)) {
     ambulo__tree_note(t, t->links[link].node,
                       "%s: %s: the foot '%s' is guessed from its inertia, %s m long; give --heel "

@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 /*
@@ -16,6 +17,7 @@
  *                 vertices) and 2 bytes; all little-endian
  *   STL, text     "vertex X Y Z"
  *   OBJ           "v X Y Z"
+ *   COLLADA       foot_collada.c
  */
 
 enum { HEAD = 84, TRIANGLE = 50, ABOVE = 6 };
@@ -78,18 +80,20 @@ static int read_lines(ambulo__mesh *mesh, const char *text, const char *word) {
   return count;
 }
 
+static int is_too_much(ambulo__tree *tree, const ambulo__mesh *mesh, size_t count) {
+  if (count <= most_points - tree->mesh_points) return 0;
+  ambulo__tree_note(tree, NULL,
+                    "mesh '%.80s' is left out: the meshes of feet have more than %zu vertices",
+                    mesh->file, most_points);
+  return 1;
+}
+
 static void read_text(ambulo__tree *tree, ambulo__mesh *mesh, const char *text, size_t length) {
   uint32_t triangles = length >= HEAD ? little_endian(text + 80) : 0;
   int binary = length >= HEAD && length == HEAD + TRIANGLE * (size_t)triangles;
   const char *word = strncmp(text, "solid", 5) == 0 ? "vertex" : "v";
   size_t count = binary ? 3 * (size_t)triangles : (size_t)read_lines(mesh, text, word);
-  if (count == 0) return;
-  if (count > most_points - tree->mesh_points) {
-    ambulo__tree_note(tree, NULL,
-                      "mesh '%.80s' is left out: the meshes of feet have more than %zu vertices",
-                      mesh->file, most_points);
-    return;
-  }
+  if (count == 0 || is_too_much(tree, mesh, count)) return;
   mesh->points = ambulo__arena_take(tree->arena, 3 * count, sizeof *mesh->points);
   if (!mesh->points) return;
   tree->mesh_points += count;
@@ -151,6 +155,11 @@ void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid 
   tree->meshes[tree->mesh_count++] = solid->mesh;
 }
 
+static int is_collada(const char *path) {
+  size_t length = path ? strlen(path) : 0;
+  return length > 4 && strcasecmp(path + length - 4, ".dae") == 0;
+}
+
 void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh) {
   const ambulo_allocator *a = &tree->arena->allocator;
   char *text = NULL;
@@ -158,6 +167,13 @@ void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh) {
   if (mesh->tried) return;
   mesh->tried = 1;
   char *path = find(a, tree->path, mesh->file);
+  if (is_collada(path)) {
+    size_t count = ambulo__collada_points(tree->arena, path, most_points - tree->mesh_points,
+                                          &mesh->points, &mesh->count);
+    if (!is_too_much(tree, mesh, count)) tree->mesh_points += count;
+    ambulo__free(a, path);
+    return;
+  }
   ambulo_status status =
       path ? ambulo__read_file(path, most_bytes, a, NULL, &text, &length) : AMBULO_E_IO;
   if (!status) read_text(tree, mesh, text, length);

@@ -139,8 +139,8 @@ static ambulo_status settle_forward(const char *path, const ambulo_import_option
   const char *given = options->forward;
   double across[3];
   read_links(&tree, path);
-  if (is_well(&tree) && !given) ambulo__find_forward(&tree);
-  if (is_well(&tree)) memcpy(forward, tree.forward, sizeof tree.forward);
+  if (is_well(&tree) && !given && ambulo__find_forward(&tree))
+    memcpy(forward, tree.forward, sizeof tree.forward);
   int good = !given || parse_forward(given, forward);
   if (good && given && is_well(&tree)) {
     ambulo__cross(tree.gravity, forward, across);

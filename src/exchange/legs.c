@@ -365,12 +365,13 @@ static int nearest_axis(double v[3]) {
   return 0;
 }
 
-void ambulo__find_forward(ambulo__tree *tree) {
+int ambulo__find_forward(ambulo__tree *tree) {
   double axes[3][3], left[3], forward[3];
   ambulo__tree_axes(tree, axes);
   double agreed = left_by_names(tree, axes[2], left);
   ambulo__cross(left, axes[2], forward);
-  if (agreed > 0.5 && nearest_axis(forward)) memcpy(tree->forward, forward, sizeof forward);
-  if (agreed > 0.0 || ahead_by_soles(tree, (const double(*)[3])axes) > -level) return;
-  for (int i = 0; i < 3; i++) tree->forward[i] = -tree->forward[i];
+  int backwards = !(agreed > 0.0) && ahead_by_soles(tree, (const double(*)[3])axes) < -level;
+  if (!backwards && !(agreed > 0.5 && nearest_axis(forward))) return 0;
+  for (int i = 0; i < 3; i++) tree->forward[i] = backwards ? -tree->forward[i] : forward[i];
+  return 1;
 }
