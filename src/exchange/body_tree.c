@@ -263,6 +263,17 @@ int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
   return 0;
 }
 
+void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
+  for (int i = 0; i < 3; i++) {
+    axes[2][i] = -tree->gravity[i];
+    axes[0][i] = tree->forward[i];
+  }
+  (void)ambulo__normalize(axes[2]);
+  ambulo__cross(axes[2], axes[0], axes[1]);
+  (void)ambulo__normalize(axes[1]);
+  ambulo__cross(axes[1], axes[2], axes[0]);
+}
+
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback) {
   size_t length = strlen(coordinate);
   for (int i = 0; i < tree->options->pose_count; i++) {

@@ -6,17 +6,6 @@
 
 #include <math.h>
 
-void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
-  for (int i = 0; i < 3; i++) {
-    axes[2][i] = -tree->gravity[i];
-    axes[0][i] = tree->forward[i];
-  }
-  (void)ambulo__normalize(axes[2]);
-  ambulo__cross(axes[2], axes[0], axes[1]);
-  (void)ambulo__normalize(axes[1]);
-  ambulo__cross(axes[1], axes[2], axes[0]);
-}
-
 /* a link behind its joint, in its parent; the joint stands at `value` */
 static ambulo__rigid in_parent(const ambulo__tree_link *l, double value) {
   if (value == 0.0) return l->origin;

@@ -362,13 +362,6 @@ static void markers_need_no_partner(void **state) {
   ambulo_model_free(model);
 }
 
-static void two_numbers_are_told_apart(void **state) {
-  (void)state;
-  assert_int_equal(ambulo__digits_apart(3.0, 4.0), 6);
-  assert_int_equal(ambulo__digits_apart(3.0, 3.0), 6);
-  assert_int_equal(ambulo__digits_apart(3.2475, 3.24750001), 9);
-}
-
 static void any_allocation_may_fail(void **state) {
   (void)state;
   ambulo_model *model = shipped("walker_2d", NULL);
@@ -394,7 +387,6 @@ int main(void) {
                                      cmocka_unit_test(the_sign_that_fits_is_hinted),
                                      cmocka_unit_test(feet_follow_the_coordinates),
                                      cmocka_unit_test(markers_need_no_partner),
-                                     cmocka_unit_test(two_numbers_are_told_apart),
                                      cmocka_unit_test(any_allocation_may_fail)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,6 +24,7 @@
  */
 #include "model/mirror_image.h"
 
+#include "base/numtext.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
@@ -51,17 +52,6 @@ typedef struct quantity {
 } quantity;
 
 /* -------------------------------------------------------------------- messages */
-
-int ambulo__digits_apart(double a, double b) {
-  char text[2][48];
-  int digits = 6;
-  for (; digits < 17; digits++) {
-    (void)snprintf(text[0], sizeof text[0], "%.*g", digits, a);
-    (void)snprintf(text[1], sizeof text[1], "%.*g", digits, b);
-    if (a == b || strcmp(text[0], text[1]) != 0) break;
-  }
-  return digits;
-}
 
 #define DIFFER(c, hint, format, ...)                                                               \
   (c)->status = ambulo__error((c)->diagnostics, (c)->words->status, ambulo__nowhere, hint,         \
@@ -193,19 +183,14 @@ static int compare_axes(comparison *c, int i, int m) {
 static void compare_drives(comparison *c, int i, int m) {
   const ambulo_coordinate *a = &c->model->coordinates[i], *b = &c->model->coordinates[m];
   int slides = a->type == AMBULO_PRISMATIC;
-  const struct {
-    quantity of;
-    double own, other;
-  } parts[] = {
-      {{"armature", slides ? "kg" : "kg m^2", "", 0}, a->armature, b->armature},
-      {{"damping", slides ? "N s/m" : "N m s/rad", "", 0}, a->damping, b->damping},
-      {{"dry friction", slides ? "N" : "N m", "", 0}, a->friction, b->friction},
-  };
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-    double most = tolerance * fmax(parts[k].own, parts[k].other);
-    if (differs(parts[k].own, parts[k].other, 0, most))
-      report(c, &parts[k].of, a->name, parts[k].own, b->name, parts[k].other);
-  }
+  const double own[] = {a->armature, a->damping, a->friction};
+  const double other[] = {b->armature, b->damping, b->friction};
+  const quantity of[] = {{"armature", slides ? "kg" : "kg m^2", "", 0},
+                         {"damping", slides ? "N s/m" : "N m s/rad", "", 0},
+                         {"dry friction", slides ? "N" : "N m", "", 0}};
+  for (int k = 0; k < 3; k++)
+    if (differs(own[k], other[k], 0, tolerance * fmax(own[k], other[k])))
+      report(c, &of[k], a->name, own[k], b->name, other[k]);
 }
 
 /* -------------------------------------------------------------------- segments */
@@ -348,8 +333,8 @@ static int is_followed(const ambulo_model *model, int coordinate) {
   return 0;
 }
 
-/* 1 after a message: the joints that follow coordinate i and its partner are no images. */
-static int compare_followers(comparison *c, int i, double *followed) {
+/* the joints that follow coordinate i and its partner; reports where these stand at first */
+static void compare_followers(comparison *c, int i, double *followed) {
   static const double places[] = {-1.5, -0.7, -0.1, 0.2, 0.6, 1.7};
   const ambulo_coordinate *own = &c->model->coordinates[i];
   for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
@@ -367,9 +352,8 @@ static int compare_followers(comparison *c, int i, double *followed) {
            "at %g and %g",
            own->name, c->model->coordinates[own->mirror].name, places[k],
            own->mirror_sign * places[k]);
-    return 1;
+    return;
   }
-  return 0;
 }
 
 /* Each pair once; what is its own image with the sign turned is so at 0 alone. */
@@ -382,8 +366,7 @@ static void compare_functions(comparison *c) {
     const ambulo_coordinate *own = &model->coordinates[i];
     int alone = own->mirror == i && own->mirror_sign < 0.0;
     if (own->mirror < i || alone) continue;
-    if (is_followed(model, i) || is_followed(model, own->mirror))
-      (void)compare_followers(c, i, followed);
+    if (is_followed(model, i) || is_followed(model, own->mirror)) compare_followers(c, i, followed);
   }
   ambulo__free(&c->segments.allocator, followed);
 }
