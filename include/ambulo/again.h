@@ -79,7 +79,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_set_foothold(ambulo_solv
                                                                      int contact,
                                                                      const double place[2],
                                                                      double heading);
-/* Another reference [node_count][d] of a term that follows one. E_ARGUMENT: it follows none. */
+/* Another reference of a term that follows one, of the shape that it has (ambulo_term:
+ * [node_count][d], [node_count][mark_count][3] or [node_count][feet][3]). E_ARGUMENT: it follows
+ * none. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solver_set_reference(ambulo_solver *solver,
                                                                       int term,
                                                                       const double *reference);

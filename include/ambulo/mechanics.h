@@ -2,7 +2,8 @@
  *
  * For n time nodes and d coordinates, motions are row-major [n][d] arrays: q (rad
  * or m), qd (per second), qdd (per second squared). Outputs:
- *   tau      [n][d]       generalized force at each coordinate, N m or N
+ *   tau      [n][d]       generalized force at each coordinate, N m or N, with what its drive adds
+ *                         (armature, damping, friction of ambulo_coordinate)
  *   wrench   [n][6]       root wrench that the surroundings must apply to the body: moment M
  *                         about the world origin (N m), then force F (N), world axes,
  *                         F = sum m (a - g)                   (seed Eqs. 15'-16')
@@ -65,7 +66,8 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_gradient(
     const ambulo_output_weights *weights, const ambulo_motion_gradient *gradient);
 
 /* Full Jacobians of tau and wrench with respect to q, qd and qdd, and of the points with respect to
- * q. Rows are outputs, columns coordinates; tau_qdd is the mass matrix. Each may be NULL. */
+ * q. Rows are outputs, columns coordinates; tau_qdd is the mass matrix, with armature. Each may be
+ * NULL. */
 typedef struct ambulo_jacobians {
   size_t size;                               /* set by ambulo_jacobians_default() */
   double *tau_q, *tau_qd, *tau_qdd;          /* [n][d][d] */

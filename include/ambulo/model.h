@@ -6,8 +6,8 @@
  *
  * (Denavit & Hartenberg 1955; the seed's Fig. 1). A revolute link adds its
  * coordinate q to theta, a prismatic link adds q to d, a fixed link has no
- * coordinate. The link frame is the frame *after* the transform; bodies and
- * points are given in it. Units: SI and radians, always.
+ * coordinate; a coupled link adds a function of another link's coordinate. The link frame is the
+ * frame *after* the transform; bodies and points are given in it. Units: SI and radians, always.
  *
  * A model is built from a definition in memory or from a YAML file
  * (docs/model-format.md), checked, and never changes afterwards: it may be shared
@@ -49,7 +49,18 @@ typedef struct ambulo_coordinate {
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
   double default_value;   /* its value in the start pose, where a solve begins unless the caller
                              gives a start: rad or m; 0 */
+  /* What its drive adds to tau, and to nothing else:
+   *   armature qdd + damping qd + friction qd / sqrt(qd^2 + v^2),
+   * v = AMBULO_FRICTION_RATE of a revolute, AMBULO_FRICTION_SPEED of a prismatic one. Each is
+   * finite and not negative, and 0 where nothing but the ground moves a whole body. */
+  double armature; /* inertia of the rotor times the gear ratio squared, kg m^2 or kg; 0 */
+  double damping;  /* N m s/rad or N s/m; 0 */
+  double friction; /* dry friction, N m or N; 0 */
 } ambulo_coordinate;
+
+/* Speed at which dry friction has 0.71 of its size; at ten times that, 0.995. */
+#define AMBULO_FRICTION_RATE 0.1   /* rad/s */
+#define AMBULO_FRICTION_SPEED 0.01 /* m/s */
 
 /* Which limit of a coordinate, and the interval that it leaves. */
 typedef enum ambulo_limited {
@@ -69,10 +80,20 @@ typedef struct ambulo_link {
   int parent; /* index of the parent link; -1: the world */
   ambulo_joint_type type;
   double theta, d, a, alpha; /* DH constants: rad, m, m, rad */
-  int coordinate;            /* coordinate index; -1 for a fixed link */
+  int coordinate;            /* coordinate index; -1 for a fixed or coupled link */
   double mass;               /* kg; 0: no body */
   double com[3];             /* centre of mass in the link frame, m */
   double inertia[6];         /* about the centre of mass, link axes: xx yy zz xy xz yz, kg m^2 */
+  /* A coupled joint, revolute or prismatic, has no coordinate and no limits of its own: its value,
+   * rad or m, is a function of a coordinate, as the parts of a knee that slide as it bends. A joint
+   * that is not coupled has coupled_to = -1. */
+  int coupled_to;       /* that coordinate; its own joint is not coupled */
+  int spline_count;     /* points of the function, 2 to 1024; 0: it is the polynomial */
+  const double *spline; /* [spline_count][2]: coordinate, ascending, and value of the joint. The
+                           cubic spline through them, straight beyond both ends; its second
+                           derivative is continuous between the ends */
+  double
+      polynomial[5]; /* the joint's value is the sum of polynomial[i] times q to the power of i */
 } ambulo_link;
 
 /* A named point fixed on a link. */
@@ -83,7 +104,9 @@ typedef struct ambulo_point {
 } ambulo_point;
 
 /* A foot: which points touch the ground. Points are indices. A planar foot has
- * one heel and one toe point; a spatial one two of each. */
+ * one heel and one toe point; a spatial one two of each. A point foot, as of a quadruped, has one
+ * point at all: heel[0], toe[0], heel_center and toe_center are the same, without a second corner,
+ * tip or arcs. It stands flat (AMBULO_CONTACT_FLAT), and its link may turn about it freely. */
 typedef struct ambulo_foot {
   const char *name; /* "left", "right" */
   int heel[2];      /* corner points at the heel; [1] = -1 if there is only one */
@@ -123,7 +146,8 @@ typedef struct ambulo_capsule {
 
 /* Everything a model consists of. Arrays are borrowed during the call only.
  * In the definition `parent`, `link`, `mirror` and point numbers are indices
- * into these arrays; `links[i].coordinate` is ignored (numbered by order);
+ * into these arrays, `coupled_to` one into `coordinates`; `links[i].coordinate` is ignored
+ * (numbered by order);
  * `coordinates[k]` describes the k-th link that has a coordinate. */
 typedef struct ambulo_model_definition {
   /* Set by ambulo_model_definition_default(): its own, and those of the items below. */
@@ -207,10 +231,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
 /* Checks that the body is its own mirror image, coordinate by coordinate as `mirror` and
  * `mirror_sign` say. The mirror plane contains the world's origin, up and forward.
  *
- * Compared at q = 0: the tree of joints, their axes, the mass, centre of mass and inertia that each
- * joint carries, and the points of the feet. The tolerance is 1e-6 of their size (lengths: of the
- * body's; directions: rad). Not compared: points that no foot uses, patches, capsules, limits,
- * `actuated`, and the handedness of link frames.
+ * Compared at q = 0: the tree of joints, their axes and drives, the mass, centre of mass and
+ * inertia that each joint carries, and the points of the feet. The tolerance is 1e-6 of their size
+ * (lengths: of the body's; directions: rad). Not compared: points that no foot uses, patches,
+ * capsules, limits, `actuated`, and the handedness of link frames.
  *
  * Each difference is a message with both names and both numbers. `allocator` and `diagnostics` may
  * be NULL. Errors: E_MODEL (not symmetric), E_ARGUMENT, E_MEMORY. */

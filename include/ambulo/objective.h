@@ -62,14 +62,21 @@ typedef enum ambulo_term_kind {
                               with `tendon` tau_i (qd_i + dtau_i/dt / tendon_i) for tau_i qd_i */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
   AMBULO_UPRIGHT, /* squared horizontal parts of the line point[0] to point[1] over its length */
-  AMBULO_GROUND_FORCE,  /* |F / (m g) - n|^2, F the root force, n up */
-  AMBULO_CLEARANCE,     /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
-  AMBULO_USER_SQUARE,   /* function(user, state, gradient)^2 */
-  AMBULO_FORCE_RATE,    /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
-                           nodes; needs ground reaction */
-  AMBULO_DEVICE_EFFORT, /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
-  AMBULO_MUSCLE_EFFORT  /* the least cost at which muscles supply the torques (ambulo/muscles.h);
-                           needs muscles */
+  AMBULO_GROUND_FORCE,   /* |F / (m g) - n|^2, F the root force, n up */
+  AMBULO_CLEARANCE,      /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
+  AMBULO_USER_SQUARE,    /* function(user, state, gradient)^2 */
+  AMBULO_FORCE_RATE,     /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
+                            nodes; needs ground reaction */
+  AMBULO_DEVICE_EFFORT,  /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
+  AMBULO_MUSCLE_EFFORT,  /* the least cost at which muscles supply the torques (ambulo/muscles.h);
+                            needs muscles */
+  AMBULO_POINT_TRACKING, /* sum_m |mark_scale_m (r_m - mark_reference_m)|^2, r_m the points `marks`
+                          */
+  AMBULO_FORCE_TRACKING, /* sum_f |foot_scale_f (F_f - foot_reference_f) / (m g)|^2, F_f the force
+                            of the ground on each foot; needs ground reaction */
+  AMBULO_PRESSURE_TRACKING /* sum_f |foot_scale_f N_f (c_f - foot_reference_f) / (m g)|^2, N_f the
+                              normal force on each foot, c_f its centre of pressure, along the
+                              ground; needs ground reaction */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
@@ -105,6 +112,15 @@ typedef struct ambulo_term {
                    1 */
   /* of AMBULO_MUSCLE_EFFORT: prices of ambulo_sharing, by volume; 1, 0, 0.2 */
   double activation, metabolic, reserve;
+  const int *marks; /* [mark_count]: points of the model (AMBULO_POINT_TRACKING) */
+  int mark_count;
+  const double *mark_scale;     /* [mark_count], 1/m, >= 0; NULL: 1 */
+  const double *mark_reference; /* [N + 1][mark_count][3] at the time nodes, world axes, m; NAN:
+                                   nothing is asked of this point then */
+  const double *foot_scale;     /* [feet], 1 or 1/m, >= 0; NULL: 1 (AMBULO_FORCE_TRACKING,
+                                   AMBULO_PRESSURE_TRACKING) */
+  const double *foot_reference; /* [N + 1][feet][3]: forces, N, or centres of pressure, m; NAN:
+                                   nothing is asked of this foot then */
 } ambulo_term;
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */

@@ -62,8 +62,8 @@ typedef enum ambulo_grid {
 typedef enum ambulo_contact_mode {
   AMBULO_CONTACT_MODE_NOT_SET = 0, /* refused */
   AMBULO_CONTACT_HEEL,             /* heel corners down; heel centre on the foothold */
-  AMBULO_CONTACT_FLAT, /* all corners down; heel centre on the foothold, toe centre straight ahead
-                        */
+  AMBULO_CONTACT_FLAT, /* all corners down; heel centre on the foothold, toe centre straight ahead;
+                          of a point foot: its point on the foothold */
   AMBULO_CONTACT_TOE,  /* toe corners down; toe centre where the flat foot has it */
   AMBULO_CONTACT_PATCH /* no foot: the middle of a patch on its place, at any orientation */
 } ambulo_contact_mode;

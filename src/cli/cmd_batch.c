@@ -17,6 +17,7 @@ enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };
 
 typedef struct view {
   int terminal, quiet, warned;
+  int refused;    /* 1: the first case without a result is named */
   double line_at; /* s: when the last plain line was printed */
   int line_done;
 } view;
@@ -31,13 +32,21 @@ static void print_line(const ambulo_batch_progress *p, int room, const char *beg
     ambulo__cli_format(worst, sizeof worst, ", worst violation %.1e (%.40s)", p->worst_violation,
                        p->worst);
   ambulo__cli_format(line, sizeof line, "%d of %d done, %d failed, %d running, %.1f cases/min%s%s",
-                     p->done, p->cases, p->failed, p->running, rate, left, worst);
+                     p->done - p->no_result, p->cases, p->failed, p->running, rate, left, worst);
   fprintf(stderr, "%s%.*s%s", begin, room, line, end);
   fflush(stderr);
 }
 
+/* at once, and even with --quiet: most likely the others have the same fault */
+static void print_refusal(view *v, const ambulo_batch_progress *p) {
+  if (!p->refusal[0] || v->refused) return;
+  v->refused = 1;
+  fprintf(stderr, "%s%s\n", v->terminal && !v->quiet ? "\r\033[K" : "", p->refusal);
+}
+
 static int show(void *user, const ambulo_batch_progress *p) {
   view *v = user;
+  print_refusal(v, p);
   if (!v->quiet && v->terminal) {
     print_line(p, ambulo__cli_line_room(), "\r", "\033[K");
   } else if (!v->quiet && p->done != v->line_done && p->seconds >= v->line_at + 5.0) {
@@ -106,10 +115,21 @@ static int collect_front(const char *directory, int quiet) {
   return code || census.corrupt == 0 ? code : ambulo__cli_census_code(&census);
 }
 
+/* "17 of 18 cases done, 1 without a result (0 before): 15 optimal, 2 infeasible, 1 invalid, 7.2 s"
+ */
+static void print_end(const ambulo_batch_progress *p) {
+  printf("%d of %d cases done", p->done - p->no_result, p->cases);
+  if (p->no_result > 0) printf(", %d without a result", p->no_result);
+  printf(" (%d before)", p->resumed);
+  for (int i = 0; i < AMBULO_BATCH_STATES && p->tally[i].cases > 0; i++)
+    printf("%s %d %s", i ? "," : ":", p->tally[i].cases, p->tally[i].state);
+  printf(", %.1f s\n", p->seconds);
+}
+
 static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
                      ambulo_batch_options *o, ambulo_diagnostics *diagnostics) {
   const char *directory = ambulo__cli_value(input, "output");
-  view v = {isatty(STDERR_FILENO), ambulo__cli_flag(input, "quiet"), 0, 0.0, 0};
+  view v = {.terminal = isatty(STDERR_FILENO), .quiet = ambulo__cli_flag(input, "quiet")};
   o->progress = show;
   o->user = &v;
   ambulo__cli_catch_stops(0);
@@ -118,9 +138,8 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
   ambulo_status status = ambulo_batch_run(sweep, directory, o, NULL, diagnostics, &end);
   if (v.terminal && !v.quiet) fprintf(stderr, "\r\033[K");
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
-  if (end.cases > 0 && !v.quiet)
-    printf("%d of %d cases done (%d before), %d without a valid solution, %.1f s\n", end.done,
-           end.cases, end.resumed, end.failed, end.seconds);
+  print_refusal(&v, &end);
+  if (end.cases > 0 && !v.quiet) print_end(&end);
   if (code) return code;
   if (ambulo_sweep_front_points(sweep) > 0 && end.done > 0)
     code = collect_front(directory, v.quiet);
@@ -186,8 +205,9 @@ static int print_status(const char *directory, int verify) {
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
   ambulo_diagnostics_free(diagnostics);
   if (code) return code;
-  printf("cases    %d\ndone     %d\nfailed   %d\nmissing  %d\nstale    %d\ncorrupt  %d\n", c.cases,
-         c.done, c.failed, c.missing, c.stale, c.corrupt);
+  printf("cases    %d\ndone     %d\nfailed   %d\nunsolved %d\n", c.cases, c.done - c.no_result,
+         c.failed - c.no_result, c.no_result);
+  printf("missing  %d\nstale    %d\ncorrupt  %d\n", c.missing, c.stale, c.corrupt);
   if (c.done > 0) printf("seconds  %.2f per case\n", c.seconds / c.done);
   printf("running  %s\n", c.holder[0] ? c.holder : "no");
   return verify || c.corrupt > 0 ? ambulo__cli_census_code(&c) : 0;
@@ -250,8 +270,9 @@ const ambulo__cli_command ambulo__cli_batch = {
     .description =
         "Solves every case of the sweep in a process of its own and keeps results and records in\n"
         "the folder. The same command resumes after an interruption. Ctrl-C finishes the running\n"
-        "cases; a second one stops at once. Exit code 0: all cases solved; 1: some have no valid\n"
-        "solution; 3: the folder was filled from other inputs; 4: the folder is locked or cannot "
+        "cases; a second one stops at once. The first case that ends without a result is named at\n"
+        "once, with its error. Exit code 0: all cases solved; 1: some have no valid solution, or\n"
+        "no result; 3: the folder was filled from other inputs; 4: the folder is locked or cannot "
         "be\n"
         "written.",
     .example = "ambulo batch models/sweep_walk.yaml -o walks -j 4\nambulo collect walks",
@@ -268,8 +289,10 @@ const ambulo__cli_command ambulo__cli_batch = {
 
 /* returns the exit code */
 static int print_census(const char *directory, const ambulo_batch_census *c) {
-  printf("%d cases: %d done (%d without a valid solution), %d missing, %d stale, %d corrupt\n",
-         c->cases, c->done, c->failed, c->missing, c->stale, c->corrupt);
+  printf("%d cases: %d done (%d without a valid solution), ", c->cases, c->done - c->no_result,
+         c->failed - c->no_result);
+  if (c->no_result > 0) printf("%d without a result, ", c->no_result);
+  printf("%d missing, %d stale, %d corrupt\n", c->missing, c->stale, c->corrupt);
   int incomplete = c->missing + c->stale + c->corrupt;
   if (c->holder[0]) {
     printf("a batch is running in it: %s\n", c->holder);

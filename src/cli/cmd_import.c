@@ -48,7 +48,8 @@ static const ambulo__cli_option options_table[] = {
     {"heel", 0, "FOOT=LINK:X,Y,Z", "heel of a foot, in m; a second corner follows another ':'"},
     {"toe", 0, "FOOT=LINK:X,Y,Z", "toe of a foot, likewise"},
     {"pose", 0, "COORDINATE=VALUE",
-     "value, in rad or m, at which splines and coupled joints are held\n(default: the source's "
+     "value, in rad or m, at which functions that no joint can follow are\nheld (default: the "
+     "source's "
      "default pose)"},
     {"forward", 0, "DIRECTION",
      "where the body goes: x, -x, y, -y, z, -z or X,Y,Z\n(default: as left and right say, else "

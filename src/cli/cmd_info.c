@@ -21,10 +21,13 @@ static void print_links(const ambulo_model *model) {
     printf("  %-3d %-22s %-22s %-9s %8.2f %8.4f %8.4f %8.2f ", i, link->name, parent,
            types[link->type], degrees * link->theta, link->d, link->a, degrees * link->alpha);
     if (link->mass > 0.0) {
-      printf("%8.4f\n", link->mass);
+      printf("%8.4f", link->mass);
     } else {
-      printf("%8s\n", "-");
+      printf("%8s", "-");
     }
+    if (link->coupled_to >= 0)
+      printf("  follows %s", ambulo_model_coordinate(model, link->coupled_to)->name);
+    printf("\n");
   }
 }
 
@@ -52,6 +55,19 @@ static void print_coordinates(const ambulo_model *model) {
            c->mirror == i && c->mirror_sign > 0.0
                ? "itself"
                : ambulo_model_coordinate(model, c->mirror)->name);
+  }
+}
+
+/* of those that have some of it */
+static void print_drives(const ambulo_model *model) {
+  int printed = 0;
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
+    if (c->armature == 0.0 && c->damping == 0.0 && c->friction == 0.0) continue;
+    if (!printed++)
+      printf("\ndrives (kg m^2 or kg; N m s/rad or N s/m; N m or N)\n  %-3s %-22s %10s %10s %10s\n",
+             "", "coordinate", "armature", "damping", "friction");
+    printf("  %-3d %-22s %10.4g %10.4g %10.4g\n", i, c->name, c->armature, c->damping, c->friction);
   }
 }
 
@@ -133,6 +149,7 @@ static void print_model(const ambulo_model *model, const char *symmetry) {
   printf("symmetry     %s\n", symmetry);
   print_links(model);
   print_coordinates(model);
+  print_drives(model);
   print_points(model);
   print_patches(model);
   print_capsules(model);

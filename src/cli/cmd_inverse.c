@@ -1,4 +1,5 @@
 /* cli/cmd_inverse.c - ambulo inverse: torques, root wrench and powers of a given motion. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,7 +22,9 @@ static int read_options(const ambulo__cli_input *input, ambulo_inverse_options *
   o->overwrite = ambulo__cli_flag(input, "force");
   o->recompute_rates = ambulo__cli_choice(input, "derivatives", 0);
   read_units(input, o);
-  return ambulo__cli_number(input, "filter", 1e-6, 1e6, &o->cutoff) &&
+  return ambulo__cli_number(input, "from", -1e9, 1e9, &o->from) &&
+         ambulo__cli_number(input, "to", isnan(o->from) ? -1e9 : o->from, 1e9, &o->to) &&
+         ambulo__cli_number(input, "filter", 1e-6, 1e6, &o->cutoff) &&
          ambulo__cli_number(input, "grf-filter", 1e-6, 1e6, &o->force_cutoff);
 }
 
@@ -69,6 +72,8 @@ static const ambulo__cli_option options_table[] = {
     {"force", 0, NULL, "overwrite an input, or a file that ambulo did not write"},
     {"strict", 0, NULL, "treat warnings as errors: exit code 3, nothing is written"},
     AMBULO__CLI_FORCE_OPTIONS,
+    {"from", 0, "S", "leave out the rows before (default: the first)"},
+    {"to", 0, "S", "leave out the rows after (default: the last)"},
     {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
     {"lengths", 0, "m|cm|mm", "unit of the motion's lengths (default: m)"},
     {"time", 0, "s|ms", "unit of the motion's times (default: s)"},

@@ -143,8 +143,8 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
   double more = repair(body.inertia);
   if (more > 0.0 && more < rounding) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
-  } else if (more > 0.0 &&
-             (tree->options->repair_inertia || (body.mass <= trifle && more <= trifling))) {
+  } else if (more > 0.0 && (tree->options->repair_inertia || tree->repair_inertia ||
+                            (body.mass <= trifle && more <= trifling))) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
                       "%s: its inertia is impossible: %s kg m^2 were added to its moments", name,
@@ -196,6 +196,7 @@ static void drop_limits(double limits[2]) {
 }
 
 void ambulo__tree_gravity(ambulo__tree *tree) {
+  static const double x[3] = {1, 0, 0};
   double *g = tree->gravity, across[3];
   double size = fmax(fabs(g[0]), fmax(fabs(g[1]), fabs(g[2])));
   if (!(size >= LEAST_GRAVITY && size <= LARGEST_GRAVITY)) {
@@ -203,10 +204,20 @@ void ambulo__tree_gravity(ambulo__tree *tree) {
                       ambulo__number_text(size).text, tree->up);
     for (int i = 0; i < 3; i++) g[i] = tree->up - 'x' == i ? -9.81 : 0.0;
   }
-  ambulo__cross(g, tree->forward, across);
+  ambulo__cross(g, x, across);
   if (ambulo__normalize(across) > 1e-3 * size) return;
-  for (int i = 0; i < 3; i++) tree->forward[i] = i == 1; /* x is up: y is as good as z */
+  ambulo__cross(g, tree->forward, across); /* else it is settled (import.c) */
+  int along = ambulo__normalize(across) <= 1e-3 * size;
+  for (int i = 0; i < 3 && along; i++) tree->forward[i] = i == 1; /* y is as good as z */
   ambulo__tree_note(tree, NULL, "gravity is along x in the source: forward is y here");
+}
+
+static void check_drive(ambulo__tree *tree, const ambulo__tree_link *link, const char *what,
+                        double value) {
+  if (value >= 0.0 && value <= LARGEST_LIMIT) return;
+  ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
+                    "%s of '%.64s' is out of range (got %s); expected 0 to 1e9", what,
+                    link->coordinate.name, ambulo__number_text(value).text);
 }
 
 void ambulo__tree_check(ambulo__tree *tree) {
@@ -225,6 +236,9 @@ void ambulo__tree_check(ambulo__tree *tree) {
     drop_limits(link->coordinate.range);
     drop_limits(link->coordinate.speed);
     drop_limits(link->coordinate.torque);
+    check_drive(tree, link, "armature", link->coordinate.armature);
+    check_drive(tree, link, "damping", link->coordinate.damping);
+    check_drive(tree, link, "friction", link->coordinate.friction);
   }
 }
 
@@ -247,6 +261,17 @@ int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
                     "the axis of joint '%.60s' has no direction (got 0 0 0); expected a vector",
                     joint);
   return 0;
+}
+
+void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
+  for (int i = 0; i < 3; i++) {
+    axes[2][i] = -tree->gravity[i];
+    axes[0][i] = tree->forward[i];
+  }
+  (void)ambulo__normalize(axes[2]);
+  ambulo__cross(axes[2], axes[0], axes[1]);
+  (void)ambulo__normalize(axes[1]);
+  ambulo__cross(axes[1], axes[2], axes[0]);
 }
 
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback) {

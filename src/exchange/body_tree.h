@@ -14,6 +14,7 @@
 #include "base/text_buffer.h"
 #include "exchange/rigid.h"
 #include "exchange/xml.h"
+#include "model/coupling.h"
 #include "model/model_check.h"
 
 #include <stddef.h>
@@ -27,6 +28,13 @@ typedef struct ambulo__mesh {
   int count;
 } ambulo__mesh;
 
+/* A function of a coordinate: the spline through points, or without any the polynomial. */
+typedef struct ambulo__tree_function {
+  int count;
+  const double *points; /* [count][2] */
+  double polynomial[AMBULO__COUPLING_TERMS];
+} ambulo__tree_function;
+
 typedef struct ambulo__tree_link {
   const char *name;
   int parent; /* -1: the world */
@@ -35,7 +43,14 @@ typedef struct ambulo__tree_link {
   double axis[3];               /* unit, link's frame */
   ambulo_coordinate coordinate; /* names and limits; `mirror` is a link of the tree, -1: none */
   int has_mirror;
-  ambulo__part body;   /* mass 0: none */
+  /* A joint that is a function of the coordinate of another: its own has no name. `was`: the name
+   * that it has in the source; NULL: none. */
+  const char *follows, *was;
+  ambulo__tree_function function;
+  double reference;  /* of a joint of MuJoCo: where functions count its coordinate from, rad or m */
+  double stiffness;  /* of a spring in the joint, N m/rad or N/m; 0: none */
+  int driven;        /* 1: a motor drives it; known where loops are closed */
+  ambulo__part body; /* mass 0: none */
   const char *comment; /* one line, NULL: none */
   const ambulo__xml_node *node;
 } ambulo__tree_link;
@@ -90,12 +105,15 @@ typedef struct ambulo__tree {
   size_t mesh_points; /* of those that were read */
   ambulo__tree_point *points;
   int point_count, point_capacity;
+  ambulo__tree_point *markers; /* of motion capture: they only tell of feet */
+  int marker_count, marker_capacity;
   ambulo__tree_foot *feet;
   int foot_count, foot_capacity;
   const char **notes;
   int note_count, note_capacity;
-  int trunk;     /* of ambulo__tree_trunk, once the links are read; -1: none */
-  int root_free; /* the importer put the whole body on six coordinates of its own */
+  int repair_inertia; /* the format's own program takes impossible inertias: they are raised */
+  int trunk;          /* of ambulo__tree_trunk, once the links are read; -1: none */
+  int root_free;      /* the importer put the whole body on six coordinates of its own */
 } ambulo__tree;
 
 /* "what was done": kept for the file, and a warning to the caller. */
@@ -113,6 +131,7 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
 /* x >= 0 to three digits, for notes. */
 ambulo__number ambulo__three_digits(double x);
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid);
+void ambulo__tree_add_marker(ambulo__tree *tree, const char *name, int link, const double at[3]);
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]);
 /* Once gravity is known and before there are links: where there is none there is some, and it is
  * not along forward. */
@@ -131,12 +150,41 @@ int ambulo__tree_axis(ambulo__tree *tree, double axis[3], const char *joint,
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */
 int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
-/* Placement of a link in the world at q = 0. */
+/* Placement of a link in the world at q = 0, and with all coordinates at their defaults. */
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
+ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link);
 /* Unit vectors along forward, left and up. */
 void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback);
+
+/* ---------------------------- joints that follow others (tree_functions.c) */
+
+ambulo__tree_function ambulo__tree_line(double slope, double offset);
+int ambulo__function_is_line(const ambulo__tree_function *function);
+double ambulo__function_value(const ambulo__tree *tree, const ambulo__tree_function *function,
+                              double x);
+/* *out = g(f(x)); 0 where that is no spline and no polynomial of degree 4, or without memory. */
+int ambulo__function_of_function(ambulo__tree *tree, const ambulo__tree_function *g,
+                                 const ambulo__tree_function *f, ambulo__tree_function *out);
+/* The joint of a link becomes a function of a coordinate, named as in the source. */
+void ambulo__tree_couple(ambulo__tree *tree, int link, const char *to,
+                         const ambulo__tree_function *function);
+/* Where the joint of a link stands at q = 0, or (start = 1) with all coordinates at their defaults.
+ */
+double ambulo__tree_stands(const ambulo__tree *tree, int link, int start);
+/* A point of one link stays on a point of another. Points are in the links' frames, m. */
+typedef struct ambulo__closure {
+  int link[2];
+  double point[2][3];
+  const ambulo__xml_node *node;
+} ambulo__closure;
+/* Joints of closed loops with one motor become functions of its coordinate; notes of the others
+ * (loops.c). */
+void ambulo__close_loops(ambulo__tree *tree, const ambulo__closure *closures, int count);
+/* Once all links are there: joints that follow one that follows another follow that one; what
+ * cannot follow is held. */
+void ambulo__tree_resolve(ambulo__tree *tree);
 
 /* A chain of joints between a parent and a body: every joint becomes a link of its own, placements
  * in between are put together. */
@@ -200,6 +248,10 @@ typedef struct ambulo__sole {
 /* The sole of a link and all that is fixed to it; axes: forward, left, up. What touches counts
  * before what is only seen, solids before meshes. 0, with `meshes`, if there is nothing to read. */
 int ambulo__sole_of(ambulo__tree *tree, int link, const double axes[3][3], ambulo__sole *sole);
+/* The sole of a foot without solids, from markers and toes (foot_markers.c), and a note that says
+ * so. 0: nothing tells of it. */
+int ambulo__sole_of_markers(ambulo__tree *tree, int link, const char *foot, const double axes[3][3],
+                            ambulo__sole *sole);
 /* Height of the lowest point of that in the start pose, toes on a joint of their own left out. */
 int ambulo__height_of(ambulo__tree *tree, int leader, const double axes[3][3], double *height);
 /* The lower side of a box that has its mass and inertia; 0 where that is longer than `longest`. */
@@ -260,6 +312,8 @@ void ambulo__find_start(ambulo__tree *tree);
 void ambulo__find_trunk_points(ambulo__tree *tree);
 /* Partners of coordinates, left for right (mirror_pairs.c). */
 void ambulo__find_mirrors(ambulo__tree *tree);
+/* Moves a planar body into the world's mirror plane, with a note (lateral_shift.c). */
+void ambulo__tree_center(ambulo__tree *tree);
 /* Left and right made exact images of each other; an error where they differ by too much
  * (symmetrize.c). */
 void ambulo__symmetrize(ambulo__tree *tree);

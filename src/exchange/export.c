@@ -182,6 +182,12 @@ static ambulo_status check_asked(const job *j) {
   if (format == AMBULO_EXPORT_URDF && j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
                          "--format npz writes the motion", "a URDF cannot hold a motion");
+  for (int i = 0; i < j->model->link_count; i++)
+    if (j->model->links[i].coupled_to >= 0)
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "'%s' follows '%s': coupled joints cannot be exported",
+                           j->model->links[i].name,
+                           j->model->coordinates[j->model->links[i].coupled_to].name);
   if (j->options->problem && !same_body(j->model, j->options->problem->model))
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "the problem belongs to another body, '%s'; expected the model's",
@@ -221,6 +227,19 @@ static void warn_limits(const job *j) {
                     "limits of torque or speed of %d coordinates ('%s') differ by direction: the "
                     "URDF has the larger",
                     uneven, first);
+}
+
+/* a URDF has damping and friction, but no rotors; an OpenSim model none of them */
+static void warn_drives(const job *j) {
+  int is_urdf = j->options->format == AMBULO_EXPORT_URDF, lost = 0;
+  for (int i = 0; i < j->model->coordinate_count; i++) {
+    const ambulo_coordinate *c = &j->model->coordinates[i];
+    lost += c->armature != 0.0 || (!is_urdf && (c->damping != 0.0 || c->friction != 0.0));
+  }
+  if (lost)
+    ambulo__warning(j->diagnostics, ambulo__nowhere, NULL, "%s of %d coordinates %s left out",
+                    is_urdf ? "armature" : "armature, damping and friction", lost,
+                    is_urdf ? "is" : "are");
 }
 
 /* ------------------------------------------------------------------------- writing */
@@ -277,6 +296,7 @@ static ambulo_status write_format(job *j) {
   switch (j->options->format) {
   case AMBULO_EXPORT_OPENSIM:
     status = ambulo__bodies_merged(j->model, j->allocator, &j->bodies);
+    warn_drives(j);
     if (!status && j->motion) status = add_loads(j);
     if (status) return status;
     if (j->motion) return write_folder(j);
@@ -287,6 +307,7 @@ static ambulo_status write_format(job *j) {
     if (status) return status;
     warn_gravity(j);
     warn_limits(j);
+    warn_drives(j);
     ambulo__export_urdf(&j->bodies, &j->text);
     return write_single(j);
   case AMBULO_EXPORT_NPZ:

@@ -4,8 +4,7 @@
  * those within 2 cm above the lowest one the rectangle along forward and left: its back edge is the
  * heel, its front edge the toe, all at the lowest height. In a planar body each edge is one point.
  *
- * A foot that is a point, as a ball is, and those of a body with four or more, stand on their heel,
- * the lowest point; the toe, half a centimetre ahead, says where forward is.
+ * A foot that is a ball, and those of a body with more than two, are point feet: the lowest point.
  */
 #include "base/numtext.h"
 #include "base/arithmetic.h"
@@ -17,7 +16,6 @@
 #include <string.h>
 
 enum { MOST_FEET = 32 };
-static const double tiptoe = 0.005; /* m: from the heel of a foot that is a point to its toe */
 
 typedef struct feet {
   ambulo__tree *tree;
@@ -96,8 +94,10 @@ static int find_sole(feet *f, const char *name, int link, ambulo__sole *sole) {
   ambulo__tree *t = f->tree;
   const char *body = t->links[link].name;
   if (ambulo__sole_of(t, link, (const double(*)[3])f->axes, sole)) return 1;
-  const char *why = sole->meshes ? "its geometry is a mesh that could not be read"
-                                 : "it has no geometry that touches the ground";
+  int meshes = sole->meshes;
+  if (ambulo__sole_of_markers(t, link, name, (const double(*)[3])f->axes, sole)) return 1;
+  const char *why = meshes ? "its geometry is a mesh that could not be read"
+                           : "it has no geometry that touches the ground";
   ambulo__sole box;
   if (ambulo__sole_of_inertia(t, link, (const double(*)[3])f->axes, 0.25 * height_of_body(f),
                               &box)) {
@@ -116,23 +116,26 @@ static int find_sole(feet *f, const char *name, int link, ambulo__sole *sole) {
   return 0;
 }
 
-/* of a point: both ends near its middle, without width */
-static void make_point(ambulo__sole *sole) {
-  double along = 0.5 * (sole->along[0] + sole->along[1]);
-  double across = 0.5 * (sole->across[0] + sole->across[1]);
-  sole->along[0] = along;
-  sole->along[1] = along + tiptoe;
-  sole->across[0] = sole->across[1] = across;
+/* a foot that is one point, in the middle of its sole */
+static void put_point(feet *f, spot on, const ambulo__sole *sole, ambulo__tree_foot *foot) {
+  const double middle[3] = {0.5 * (sole->along[0] + sole->along[1]),
+                            0.5 * (sole->across[0] + sole->across[1]), sole->height};
+  foot->heel_center = foot->toe_center = put(f, foot->name, "point", on, middle);
+  foot->heel[0] = foot->toe[0] = foot->heel_center;
+  foot->heel[1] = foot->toe[1] = -1;
 }
 
 static int foot_from_solids(feet *f, const char *name, int link, int point) {
   ambulo__sole sole;
   if (!find_sole(f, name, link, &sole)) return 0;
-  if (point || sole.is_point) make_point(&sole);
   int spatial = is_spatial(f) && sole.across[1] - sole.across[0] > 1e-3;
   ambulo__tree_foot *foot = add_foot(f->tree, name, link);
   if (!foot) return 0;
   spot on = {link, sole.start};
+  if (point || sole.is_point) {
+    put_point(f, on, &sole, foot);
+    return 1;
+  }
   foot->heel_center =
       put_edge(f, name, "heel", on, sole.along[0], sole.across, sole.height, spatial, foot->heel);
   foot->toe_center =

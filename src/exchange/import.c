@@ -46,7 +46,7 @@ static void expect_motion(const ambulo__tree *tree, const ambulo__xml_node *root
   int joints = 0;
   double mass = 0.0;
   for (int i = 0; i < tree->link_count; i++) {
-    joints += tree->links[i].type != AMBULO_FIXED;
+    joints += tree->links[i].type != AMBULO_FIXED && !tree->links[i].follows;
     mass += tree->links[i].body.mass;
   }
   if (tree->xml->status || tree->arena->failed) return;
@@ -80,6 +80,7 @@ static void read_links(ambulo__tree *tree, const char *path) {
   if (!root) return;
   tree->path = path;
   read_format(tree, root, path);
+  if (is_well(tree)) ambulo__tree_resolve(tree);
   expect_motion(tree, root);
   if (is_well(tree)) ambulo__tree_check(tree);
   tree->trunk = is_well(tree) ? ambulo__tree_trunk(tree) : -1;
@@ -93,6 +94,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (is_well(tree)) ambulo__find_start(tree);
   if (is_well(tree)) ambulo__find_mirrors(tree);
   if (is_well(tree)) ambulo__find_trunk_points(tree);
+  if (is_well(tree)) ambulo__tree_center(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
   tree->name = model_name(tree->arena, tree->name);

@@ -195,7 +195,8 @@ static void take_off(const builder *b, const ambulo__export_load *load, int k, c
   }
   memcpy(moment, torque, sizeof moment);
   if (load->kind == AMBULO__LOAD_DEVICE) ambulo__add_cross(point, force, 1.0, moment);
-  ambulo__load_take(b->model, b->frames, load->link, force, moment, tau);
+  ambulo__load_take(b->model, b->frames, load->link,
+                    b->source->q + (size_t)k * (size_t)b->source->coordinates, force, moment, tau);
 }
 
 /* the torque of a patch at its points, once all rows have one */

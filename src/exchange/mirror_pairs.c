@@ -96,7 +96,7 @@ static void left_of(const ambulo__tree *tree, double left[3]) {
 }
 
 /* +1 or -1; 0: neither */
-static double sign_of(const ambulo__tree *tree, int link, int partner, const double left[3]) {
+static double sign_of(ambulo__tree *tree, int link, int partner, const double left[3]) {
   double a[3], b[3];
   ambulo__rigid place = ambulo__tree_place(tree, link), other = ambulo__tree_place(tree, partner);
   ambulo__rigid_vector(&place, tree->links[link].axis, a);
@@ -152,7 +152,7 @@ void ambulo__find_mirrors(ambulo__tree *tree) {
   left_of(tree, left);
   for (int i = 0; i < tree->link_count; i++) {
     ambulo__tree_link *link = &tree->links[i];
-    if (link->type == AMBULO_FIXED) continue;
+    if (link->type == AMBULO_FIXED || link->follows) continue;
     int partner = ambulo__partner_coordinate(tree, i);
     double sign = sign_of(tree, i, partner, left);
     link->has_mirror = sign != 0.0;

@@ -1,8 +1,9 @@
 /* exchange/mjcf.c - the rigid part of a MuJoCo model (MJCF): settings, and what is left out.
  *
  * Bodies with their joints, masses and geoms (mjcf_bodies.c), default classes, included files,
- * torque limits from actuators. Angles are degrees unless the compiler says radian; z is up.
- * Tendons, equalities, springs and dampers of joints, armature and contacts are not carried over.
+ * torque limits from actuators; joints that an equality makes a polynomial of another, or closes to
+ * a loop. Angles are degrees unless the compiler says radian; z is up. Tendons, other equalities,
+ * springs of joints and contacts are not carried over.
  */
 #include "exchange/mjcf.h"
 
@@ -203,21 +204,108 @@ static void set_total_mass(ambulo__mjcf *m) {
   }
 }
 
-static void note_leftovers(ambulo__mjcf *m) {
+/* joints that follow others (mjcf.h).
+ *
+ * <equality><joint joint1 joint2 polycoef>: with positions that begin at each joint's reference,
+ *
+ *     y - y0 = a0 + a1 (x - x0) + ... + a4 (x - x0)^4
+ *
+ * in radians or metres, also where the file has degrees. */
+
+/* 1: it became a function. */
+static int couple(ambulo__mjcf *m, const ambulo__xml_node *n) {
+  const char *own = ambulo__xml_attribute(n, "joint1"), *to = ambulo__xml_attribute(n, "joint2");
+  int link = own && to ? ambulo__tree_find_coordinate(m->tree, own) : -1;
+  int leader = own && to ? ambulo__tree_find_coordinate(m->tree, to) : -1;
+  ambulo__tree_function f = ambulo__tree_line(1.0, 0.0), whole;
+  if (!ambulo__xml_is(n, "joint") || link < 0 || leader < 0 || link == leader) return 0;
+  if (!ambulo__mjcf_flag(m, n, NULL, "active", 1)) return 0;
+  (void)ambulo__mjcf_numbers(m, n, NULL, "polycoef", 1, AMBULO__COUPLING_TERMS, f.polynomial);
+  f.polynomial[0] += m->tree->links[link].reference;
+  ambulo__tree_function from = ambulo__tree_line(1.0, -m->tree->links[leader].reference);
+  if (!ambulo__function_of_function(m->tree, &f, &from, &whole)) return 0;
+  ambulo__tree_couple(m->tree, link, to, &whole);
+  return 1;
+}
+
+/* <equality><connect body1 body2 anchor>: the anchor, in the frame of body1, is a point of both
+ * where all joints are at their references. */
+
+static ambulo__rigid reference_place(const ambulo__tree *tree, int link) {
+  ambulo__rigid place = ambulo__rigid_identity();
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->reference);
+    if (l->type != AMBULO_FIXED) place = ambulo__rigid_times(&step, &place);
+    place = ambulo__rigid_times(&l->origin, &place);
+  }
+  return place;
+}
+
+static int read_closure(ambulo__mjcf *m, const ambulo__xml_node *n, ambulo__closure *c) {
+  static const char *const names[] = {"body1", "body2"};
+  double world[3];
+  ambulo__rigid place[2];
+  if (!ambulo__xml_is(n, "connect") || !ambulo__mjcf_flag(m, n, NULL, "active", 1)) return 0;
+  for (int i = 0; i < 2; i++) {
+    const char *body = ambulo__xml_attribute(n, names[i]);
+    c->link[i] = body ? ambulo__tree_find(m->tree, body) : -1;
+    if (c->link[i] < 0) return 0;
+    place[i] = reference_place(m->tree, c->link[i]);
+  }
+  if (!ambulo__mjcf_numbers(m, n, NULL, "anchor", 3, 3, c->point[0])) return 0;
+  c->node = n;
+  ambulo__rigid back = ambulo__rigid_inverse(&place[1]);
+  ambulo__rigid_point(&place[0], c->point[0], world);
+  ambulo__rigid_point(&back, world, c->point[1]);
+  return 1;
+}
+
+/* how many of them became functions, or notes of their own */
+static int couple_joints(ambulo__mjcf *m) {
+  int count = 0, closed = 0, capacity = 0;
+  ambulo__closure *closures = NULL;
+  AMBULO__XML_EACH (set, m->root, "equality") {
+    for (const ambulo__xml_node *n = set->first; n; n = n->next) {
+      if (!ambulo__arena_grow(m->tree->arena, &closures, closed, &capacity, sizeof *closures))
+        return count;
+      count += couple(m, n);
+      closed += read_closure(m, n, &closures[closed]);
+    }
+  }
+  for (int i = 0; i < m->tree->link_count && closed > 0; i++) {
+    ambulo__tree_link *l = &m->tree->links[i];
+    l->driven = l->coordinate.name && ambulo__mjcf_is_driven(m, l->coordinate.name);
+  }
+  ambulo__close_loops(m->tree, closures, closed);
+  return count + closed;
+}
+
+static void note_leftovers(ambulo__mjcf *m, int coupled) {
   static const char *const sets[] = {"tendon", "equality", "deformable", "extension"};
   for (int i = 0; i < 4; i++) {
     int count = 0;
     for (const ambulo__xml_node *set = ambulo__xml_child(m->root, sets[i]); set;
          set = ambulo__xml_next(set, sets[i]))
       for (const ambulo__xml_node *n = set->first; n; n = n->next) count++;
+    if (i == 1) count -= coupled;
     if (count) ambulo__tree_note(m->tree, NULL, "%d of <%s> are left out", count, sets[i]);
   }
-  if (m->armatures)
-    ambulo__tree_note(m->tree, NULL, "armature of %d joints is left out: rotors have no inertia",
-                      m->armatures);
-  if (m->springs)
-    ambulo__tree_note(m->tree, NULL, "stiffness, damping and friction of %d joints are left out",
-                      m->springs);
+  const struct {
+    int count;
+    const char *what, *done;
+  } joints[] = {
+      {m->springs, "stiffness", "joints is left out"},
+      {m->bent, "damping that grows faster than the speed", "joints is left out"},
+      {m->driven_roots, "armature, damping and friction",
+       "joints of the free root are left out: no drive is there to have them"},
+      {m->driven_balls, "armature, damping and friction",
+       "ball joints are those of each of their three hinges: MuJoCo's at 0"},
+  };
+  for (int i = 0; i < 4; i++)
+    if (joints[i].count)
+      ambulo__tree_note(m->tree, NULL, "%s of %d %s", joints[i].what, joints[i].count,
+                        joints[i].done);
 }
 
 static void read_option(ambulo__tree *tree, const ambulo__xml_node *option) {
@@ -252,5 +340,5 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
   if (tree->xml->status || tree->arena->failed) return;
   set_total_mass(&m);
   read_actuators(&m);
-  note_leftovers(&m);
+  note_leftovers(&m, couple_joints(&m));
 }

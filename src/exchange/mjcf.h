@@ -23,7 +23,7 @@ typedef struct ambulo__mjcf {
   const char *mesh_folder;          /* NULL: that of the model */
   struct ambulo__mjcf_names *names; /* mjcf_index.c */
   /* what is left out, counted */
-  int armatures, springs;
+  int springs, bent, driven_balls, driven_roots;
   int unnamed;
   double *key; /* qpos of the start pose [key_count]; NULL: none */
   int key_count, key_used;

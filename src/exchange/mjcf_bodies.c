@@ -114,17 +114,26 @@ static void read_limits(reading *b, const ambulo__xml_node *joint, int slides, i
   }
 }
 
-static void count_passive(reading *b, const ambulo__xml_node *joint) {
-  static const char *const passive[] = {"stiffness", "damping", "frictionloss"};
-  double value[3] = {0.0};
-  int springs = 0;
-  for (int i = 0; i < 3; i++)
-    if (ambulo__mjcf_numbers(b->m, joint, b->around, passive[i], 1, 3, value))
-      springs |= value[0] != 0.0;
-  b->m->springs += springs;
-  value[0] = 0.0;
-  (void)ambulo__mjcf_numbers(b->m, joint, b->around, "armature", 1, 1, value);
-  b->m->armatures += value[0] != 0.0;
+/* What the joint's drive adds, the same for each of its coordinates: links `first` and on. Those of
+ * a free root cannot have it. */
+static void read_drive(reading *b, const ambulo__xml_node *joint, int first, int is_root) {
+  static const char *const names[] = {"armature", "damping", "frictionloss", "stiffness"};
+  ambulo__mjcf *m = b->m;
+  double value[4][3] = {{0.0}};
+  for (int i = 0; i < 4; i++)
+    (void)ambulo__mjcf_numbers(m, joint, b->around, names[i], 1, i == 0 ? 1 : 3, value[i]);
+  int is_driven = value[0][0] != 0.0 || value[1][0] != 0.0 || value[2][0] != 0.0;
+  m->springs += value[3][0] != 0.0 || value[3][1] != 0.0 || value[3][2] != 0.0;
+  m->bent += value[1][1] != 0.0 || value[1][2] != 0.0;
+  m->driven_roots += is_driven && is_root;
+  m->driven_balls += is_driven && !is_root && m->tree->link_count - first > 1;
+  for (int link = first; link < m->tree->link_count && !is_root; link++) {
+    ambulo_coordinate *c = &m->tree->links[link].coordinate;
+    c->armature = value[0][0];
+    c->damping = value[1][0];
+    c->friction = value[2][0];
+    m->tree->links[link].stiffness = value[3][0];
+  }
 }
 
 static void shift(ambulo__chain *chain, const double by[3], double factor) {
@@ -143,6 +152,7 @@ static void one_coordinate(reading *b, ambulo__chain *chain, const ambulo__xml_n
   read_limits(b, joint, slides, link);
   (void)ambulo__mjcf_numbers(m, joint, b->around, "ref", 1, 1, &zero);
   const double *key = take_key(m, 1);
+  m->tree->links[link].reference = slides ? zero : zero * m->angle;
   m->tree->links[link].coordinate.default_value = ambulo__tree_pose(m->tree, name,
                                                                     key      ? *key
                                                                     : slides ? zero
@@ -179,17 +189,19 @@ static void add_joint(reading *b, ambulo__chain *chain, const ambulo__xml_node *
     ambulo__chain_free(chain, name);
     ambulo__chain_place(chain, &turned);
     start_free(m, first, &body);
+    if (ambulo__xml_is(joint, "joint")) read_drive(b, joint, first, 1); /* a <freejoint> has none */
     return;
   }
   (void)ambulo__mjcf_numbers(m, joint, b->around, "pos", 3, 3, anchor);
-  count_passive(b, joint);
   shift(chain, anchor, 1.0);
+  first = m->tree->link_count;
   if (type == BALL) {
     ambulo__chain_ball(chain, name, &first);
     start_ball(m, first);
   } else {
     one_coordinate(b, chain, joint, type == SLIDE, name);
   }
+  read_drive(b, joint, first, 0);
   shift(chain, anchor, -1.0);
 }
 
@@ -256,12 +268,19 @@ static void read_mass(reading *b, int link) {
   ambulo__tree_body(m->tree, link, &body, at, at);
 }
 
-/* joints of a root of its own that nothing drives */
+/* joints of a root of its own that nothing drives; if it slides, nothing but the world could turn
+ * rotors there */
 static void free_root(reading *b, int first) {
   ambulo__tree *t = b->m->tree;
+  int slides = 0;
+  for (int i = first; i < t->link_count; i++) slides |= t->links[i].type == AMBULO_PRISMATIC;
   for (int i = first; i < t->link_count && b->joints >= 2; i++) {
     ambulo_coordinate *c = &t->links[i].coordinate;
-    if (c->name && !ambulo__mjcf_is_driven(b->m, c->name)) c->actuated = 0;
+    if (!c->name || ambulo__mjcf_is_driven(b->m, c->name)) continue;
+    c->actuated = 0;
+    if (!slides) continue;
+    b->m->driven_roots += c->armature != 0.0 || c->damping != 0.0 || c->friction != 0.0;
+    c->armature = c->damping = c->friction = 0.0;
   }
 }
 

@@ -329,6 +329,9 @@ static void print_limit(const ambulo_coordinate *c, ambulo__text_buffer *text) {
   if (ranged) numbers(text, " lower=\"", &low, 1, "\"");
   if (ranged) numbers(text, " upper=\"", &high, 1, "\"");
   ambulo__text_append(text, "/>\n");
+  if (c->damping == 0.0 && c->friction == 0.0) return;
+  numbers(text, "    <dynamics damping=\"", &c->damping, 1, "\"");
+  numbers(text, " friction=\"", &c->friction, 1, "\"/>\n");
 }
 
 static const char *kind_of(const ambulo_coordinate *c) {

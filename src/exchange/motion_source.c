@@ -290,17 +290,20 @@ static void slide_along(ambulo__frame_motion *m, const double z[3], double rate,
   }
 }
 
-static void pass_link(const ambulo_link *link, const double *q, const double *qd, const double *qdd,
-                      ambulo__frame_motion *m) {
+static void pass_link(const ambulo_model *model, int index, const double *q, const double *qd,
+                      const double *qdd, ambulo__frame_motion *m) {
   static const double z_axis[3] = {0, 0, 1};
-  int c = link->coordinate, hinge = link->type == AMBULO_REVOLUTE;
-  double s[3], z[3];
-  ambulo__rigid t = ambulo__link_transform(link, c < 0 ? 0.0 : q[c]);
+  const ambulo_link *link = &model->links[index];
+  int c = ambulo__moved_by(model, index), hinge = link->type == AMBULO_REVOLUTE;
+  double s[3], z[3], f[AMBULO__COUPLING_SLOPES];
+  ambulo__rigid t = ambulo__link_transform(link, ambulo__joint_value(model, index, q, f));
+  double rate = c < 0 ? 0.0 : f[0] * qd[c];
+  double gain = c < 0 ? 0.0 : f[0] * qdd[c] + f[1] * qd[c] * qd[c];
   ambulo__rigid_vector(&m->place, z_axis, z);
   ambulo__rigid_vector(&m->place, t.p, s);
-  if (c >= 0 && hinge) turn_about(m, z, qd[c], qdd[c]);
+  if (c >= 0 && hinge) turn_about(m, z, rate, gain);
   carry(m, s);
-  if (c >= 0 && !hinge) slide_along(m, z, qd[c], qdd[c]);
+  if (c >= 0 && !hinge) slide_along(m, z, rate, gain);
   m->place = ambulo__rigid_times(&m->place, &t);
 }
 
@@ -312,7 +315,7 @@ void ambulo__frame_motion_of(const ambulo_model *model, int link, const ambulo__
     return;
   }
   ambulo__frame_motion_of(model, model->links[link].parent, world, q, qd, qdd, motion);
-  pass_link(&model->links[link], q, qd, qdd, motion);
+  pass_link(model, link, q, qd, qdd, motion);
 }
 
 /* The largest of the four squares is at least a quarter: nothing is divided by less than 1/2. */

@@ -18,9 +18,9 @@
  * f a function of a coordinate
  *
  * A function slope q + offset with a slope of 1 is a joint of the coordinate itself; with -1 about
- * the opposite axis; with another slope the coordinate of the model is slope times that of the
- * source, and a note says so. Everything else, and what a coordinate drives besides, is frozen at
- * the default of the coordinate; a note says by how much it would have moved.
+ * the opposite axis. What else a coordinate drives is a joint that follows it. Where it has no such
+ * axis, a link without mass has the coordinate. A function with corners, or of a high degree, is
+ * frozen at the default of the coordinate; a note says by how much it would have moved.
  */
 #include <math.h>
 #include <string.h>
@@ -48,6 +48,15 @@ static void put_still(building *b, int slides, const double axis[3], double valu
   ambulo__chain_place(&b->chain, &still);
 }
 
+/* a joint that follows a coordinate, by `function` */
+static void put_following(building *b, int slides, const double axis[3], const char *name,
+                          const char *to, const ambulo__tree_function *function) {
+  const char *full = ambulo__arena_print(b->o->tree->arena, "%.40s_%.20s", b->joint->name, name);
+  int link =
+      ambulo__chain_joint(&b->chain, slides ? AMBULO_PRISMATIC : AMBULO_REVOLUTE, axis, full);
+  ambulo__tree_couple(b->o->tree, link, to, function);
+}
+
 /* slope q + offset about or along an axis */
 static void put_moving(building *b, int slides, const double axis[3], int c, double slope,
                        double offset) {
@@ -56,6 +65,12 @@ static void put_moving(building *b, int slides, const double axis[3], int c, dou
                            slope < 0 ? -axis[2] : axis[2]};
   if (coordinate->held) {
     put_still(b, slides, axis, slope * coordinate->value + offset);
+    return;
+  }
+  if (coordinate->leader) {
+    ambulo__tree_function whole, line = ambulo__tree_line(slope, offset);
+    if (ambulo__function_of_function(b->o->tree, &line, &coordinate->function, &whole))
+      put_following(b, slides, axis, coordinate->name, coordinate->leader, &whole);
     return;
   }
   if (offset != 0.0) put_still(b, slides, axis, offset);
@@ -115,7 +130,7 @@ static int read_axis(building *b, const ambulo__xml_node *node, transform_axis *
   return 1;
 }
 
-/* a function that is no joint of its own: frozen */
+/* a function that no joint can have: frozen */
 static void put_frozen(building *b, const transform_axis *a, int slides) {
   const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
   double value = ambulo__osim_value(b->o, a->function, c->value);
@@ -135,6 +150,22 @@ static void put_frozen(building *b, const transform_axis *a, int slides) {
                     slides ? "mm" : "degrees");
 }
 
+/* a function that is no joint of its own: it follows the coordinate, or what that follows */
+static void put_function(building *b, const transform_axis *a, int slides) {
+  const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
+  const char *name = ambulo__xml_attribute(a->node, "name");
+  ambulo__tree_function own, whole;
+  int can = !c->held && ambulo__osim_read_function(b->o, a->function, &own);
+  if (can && c->leader) {
+    can = ambulo__function_of_function(b->o->tree, &own, &c->function, &whole);
+    own = whole;
+  }
+  if (can)
+    put_following(b, slides, a->axis, name ? name : "axis", c->leader ? c->leader : c->name, &own);
+  else
+    put_frozen(b, a, slides);
+}
+
 static void put_axis(building *b, const transform_axis *a, int slides) {
   if (a->coordinate < 0 || (a->linear && a->slope == 0.0)) {
     double value = a->linear     ? a->offset
@@ -144,19 +175,56 @@ static void put_axis(building *b, const transform_axis *a, int slides) {
   } else if (a->linear && !b->has_link[a->coordinate]) {
     put_moving(b, slides, a->axis, a->coordinate, a->slope, a->offset);
   } else {
-    put_frozen(b, a, slides);
+    put_function(b, a, slides);
   }
 }
 
-/* Which of the axes that are linear in a coordinate gets it: a turn rather than a slide. */
+/* 1: some axis moves with the coordinate; *turns: a hinge. */
+static int drives(const transform_axis *axes, int c, int *turns) {
+  int any = 0;
+  *turns = 0;
+  for (int i = 0; i < AXES; i++) {
+    int moves = axes[i].coordinate == c && !(axes[i].linear && axes[i].slope == 0.0);
+    any |= moves;
+    *turns |= moves && i < 3;
+  }
+  return any;
+}
+
+/* A coordinate without an axis of its own: a link without mass has it. 0: there is no place. */
+static int put_carrier(building *b, int c, int turns) {
+  ambulo__osim_coordinate *coordinate = &b->coordinates[c];
+  const double axis[3] = {0, 0, 1};
+  ambulo__rigid none = ambulo__rigid_identity();
+  if (b->chain.parent < 0) return 0; /* the world has one link */
+  int link =
+      ambulo__tree_add(b->o->tree, coordinate->name, b->chain.parent,
+                       turns ? AMBULO_REVOLUTE : AMBULO_PRISMATIC, &none, axis, b->joint->node);
+  if (link < 0) return 1;
+  b->has_link[c] = 1;
+  ambulo__osim_limits(b->o, coordinate, 1.0, link);
+  b->o->tree->links[link].coordinate.default_value = coordinate->value;
+  ambulo__tree_note(b->o->tree, coordinate->node,
+                    "%s is no axis' own angle or length: a link without mass has it",
+                    coordinate->name);
+  return 1;
+}
+
+/* Which of the axes that are linear in a coordinate gets it: a turn rather than a slide, and one
+ * that moves as far. */
 static void choose(building *b, transform_axis *axes) {
   for (int c = 0; c < b->count; c++) {
-    int owner = -1;
-    for (int i = 0; i < AXES; i++)
-      if (axes[i].coordinate == c && axes[i].linear && axes[i].slope != 0.0 && owner < 0) owner = i;
+    int owner = -1, other = -1, turns = 0;
+    if (b->coordinates[c].held || b->coordinates[c].leader) continue;
+    for (int i = AXES - 1; i >= 0; i--) {
+      if (axes[i].coordinate != c || !axes[i].linear || axes[i].slope == 0.0) continue;
+      other = i;
+      if (fabs(axes[i].slope) == 1.0) owner = i;
+    }
+    if (owner < 0 && drives(axes, c, &turns) && !put_carrier(b, c, turns)) owner = other;
     for (int i = 0; i < AXES; i++)
       if (axes[i].coordinate == c && i != owner && axes[i].slope != 0.0) axes[i].linear = 0;
-    if (owner < 0 && !b->coordinates[c].held)
+    if (owner < 0 && !b->has_link[c])
       ambulo__tree_note(b->o->tree, b->coordinates[c].node,
                         "%s drives no axis linearly: it is left out, and its joint is held at %s",
                         b->coordinates[c].name, ambulo__number_text(b->coordinates[c].value).text);
@@ -251,35 +319,6 @@ static int add_joint(ambulo__osim *o, const ambulo__osim_joint *joint, int paren
 
 /* ------------------------------------------------------------------------ reading */
 
-static void read_body(ambulo__osim *o, const ambulo__osim_body *body) {
-  static const char *const entries[] = {"inertia_xx", "inertia_yy", "inertia_zz",
-                                        "inertia_xy", "inertia_xz", "inertia_yz"};
-  const ambulo__xml_node *node = body->node, *mass = ambulo__xml_child(node, "mass");
-  ambulo__part part = {0};
-  if (!mass) {
-    ambulo__xml_error(o->xml, node, AMBULO_E_SCHEMA, NULL,
-                      "body '%.60s' has no mass; expected <mass>", body->name);
-    return;
-  }
-  (void)ambulo__xml_child_vector(o->xml, node, "mass", 1, 0, &part.mass);
-  (void)ambulo__xml_child_vector(o->xml, node, "mass_center", 3, 0, part.com);
-  int listed = ambulo__xml_child(node, "inertia") != NULL;
-  if (listed) (void)ambulo__xml_child_vector(o->xml, node, "inertia", 6, 0, part.inertia);
-  for (int i = 0; i < 6 && !listed; i++) {
-    if (ambulo__xml_child(node, entries[i])) {
-      (void)ambulo__xml_child_vector(o->xml, node, entries[i], 1, 0, &part.inertia[i]);
-    } else if (i < 3 && part.mass > 0.0) {
-      ambulo__xml_error(o->xml, node, AMBULO_E_SCHEMA, NULL,
-                        "body '%.60s' has a mass but no inertia; expected <inertia> with six "
-                        "numbers, or <%s>",
-                        body->name, entries[i]);
-      return;
-    }
-  }
-  const ambulo__xml_node *inertia = ambulo__xml_child(node, listed ? "inertia" : entries[0]);
-  ambulo__tree_body(o->tree, body->link, &part, mass, inertia ? inertia : mass);
-}
-
 /* A body without a joint floats: OpenSim gives it six coordinates, and so is done here. */
 static int float_freely(ambulo__osim *o, ambulo__osim_body *body, int parent) {
   ambulo__chain chain = ambulo__chain_begin(o->tree, parent, body->node);
@@ -299,7 +338,7 @@ static int hang(ambulo__osim *o, int i) {
   body->link = body->joint < 0 ? float_freely(o, body, parent)
                                : add_joint(o, &o->joints[body->joint], parent);
   if (body->link < 0) return 0;
-  read_body(o, body);
+  ambulo__osim_read_body(o, body);
   return 1;
 }
 
@@ -337,6 +376,7 @@ void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {
   const ambulo__xml_node *model = ambulo__xml_child(root, "Model");
   ambulo__osim o = {.tree = tree, .xml = tree->xml, .model = model};
   tree->format = "OpenSim";
+  tree->repair_inertia = 1;
   if (!model) {
     ambulo__xml_error(tree->xml, root, AMBULO_E_SCHEMA, NULL,
                       "this OpenSim file holds no model (got <%.40s>); expected <Model>",
@@ -355,4 +395,5 @@ void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {
   if (tree->xml->status || tree->arena->failed) return;
   ambulo__osim_forces(&o);
   ambulo__osim_contacts(&o);
+  ambulo__osim_markers(&o);
 }

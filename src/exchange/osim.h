@@ -37,6 +37,8 @@ typedef struct ambulo__osim {
 
 /* Both lists; an error for what is no tree of bodies. */
 void ambulo__osim_collect(ambulo__osim *o);
+/* Mass and inertia of a body that is in the tree, added to its link's. */
+void ambulo__osim_read_body(ambulo__osim *o, const ambulo__osim_body *body);
 /* Body and placement of a frame that `text` names ("pelvis", "/bodyset/pelvis", "../hip_offset"),
  * looked for among the frames of `scope` first; the body, or -1 after an error at `node`. */
 int ambulo__osim_frame(ambulo__osim *o, const ambulo__xml_node *scope, const ambulo__xml_node *node,
@@ -54,8 +56,10 @@ int ambulo__osim_flag(const ambulo__xml_node *node, const char *name, int otherw
 typedef struct ambulo__osim_coordinate {
   const char *name;
   const ambulo__xml_node *node;
-  int held;     /* 1: it does not move: locked, prescribed, or another's dependent */
-  double value; /* where it stands when something is frozen, rad or m */
+  int held;           /* 1: it does not move: locked, prescribed, or follows one that does not */
+  double value;       /* where it stands when something is frozen, rad or m */
+  const char *leader; /* the coordinate that it is a function of; NULL: it is its own */
+  ambulo__tree_function function;
 } ambulo__osim_coordinate;
 /* Fills list[0..most); how many the joint has. Says what is held. */
 int ambulo__osim_coordinates(ambulo__osim *o, const ambulo__osim_joint *joint, int most,
@@ -67,6 +71,7 @@ void ambulo__osim_limits(ambulo__osim *o, const ambulo__osim_coordinate *coordin
 void ambulo__osim_forces(ambulo__osim *o);
 /* Spheres that touch the ground. */
 void ambulo__osim_contacts(ambulo__osim *o);
+void ambulo__osim_markers(ambulo__osim *o); /* those on bodies */
 
 /* ----------------------------------------------------- functions (osim_functions.c) */
 
@@ -78,6 +83,9 @@ double ambulo__osim_value(ambulo__osim *o, const ambulo__xml_node *function, dou
  */
 double ambulo__osim_travel(ambulo__osim *o, const ambulo__xml_node *function, double scale,
                            const ambulo__xml_node *coordinate, double x, double from);
+/* The function as joints can have it; 0: it has corners, or is a polynomial of a degree above 4. */
+int ambulo__osim_read_function(ambulo__osim *o, const ambulo__xml_node *function,
+                               ambulo__tree_function *f);
 /* 1 and slope x + offset, if the function is a straight line: constants, linear functions, splines
  * through points on a line. */
 int ambulo__osim_is_linear(ambulo__osim *o, const ambulo__xml_node *function, double *slope,

@@ -174,3 +174,34 @@ void ambulo__osim_collect(ambulo__osim *o) {
   for (const ambulo__xml_node *n = ambulo__osim_objects(o->model, "JointSet"); n; n = n->next)
     collect_listed(o, n);
 }
+
+/* ----------------------------------------------------------------------- masses */
+
+void ambulo__osim_read_body(ambulo__osim *o, const ambulo__osim_body *body) {
+  static const char *const entries[] = {"inertia_xx", "inertia_yy", "inertia_zz",
+                                        "inertia_xy", "inertia_xz", "inertia_yz"};
+  const ambulo__xml_node *node = body->node, *mass = ambulo__xml_child(node, "mass");
+  ambulo__part part = {0};
+  if (!mass) {
+    ambulo__xml_error(o->xml, node, AMBULO_E_SCHEMA, NULL,
+                      "body '%.60s' has no mass; expected <mass>", body->name);
+    return;
+  }
+  (void)ambulo__xml_child_vector(o->xml, node, "mass", 1, 0, &part.mass);
+  (void)ambulo__xml_child_vector(o->xml, node, "mass_center", 3, 0, part.com);
+  int listed = ambulo__xml_child(node, "inertia") != NULL;
+  if (listed) (void)ambulo__xml_child_vector(o->xml, node, "inertia", 6, 0, part.inertia);
+  for (int i = 0; i < 6 && !listed; i++) {
+    if (ambulo__xml_child(node, entries[i])) {
+      (void)ambulo__xml_child_vector(o->xml, node, entries[i], 1, 0, &part.inertia[i]);
+    } else if (i < 3 && part.mass > 0.0) {
+      ambulo__xml_error(o->xml, node, AMBULO_E_SCHEMA, NULL,
+                        "body '%.60s' has a mass but no inertia; expected <inertia> with six "
+                        "numbers, or <%s>",
+                        body->name, entries[i]);
+      return;
+    }
+  }
+  const ambulo__xml_node *inertia = ambulo__xml_child(node, listed ? "inertia" : entries[0]);
+  ambulo__tree_body(o->tree, body->link, &part, mass, inertia ? inertia : mass);
+}

@@ -36,25 +36,37 @@ static double default_of(ambulo__osim *o, const ambulo__xml_node *node, const ch
   return ambulo__tree_pose(o->tree, name, value);
 }
 
-/* Where a dependent coordinate stands: the function of where the other stands. Says by how much it
- * would move over the other's range. */
-static double follow(ambulo__osim *o, const ambulo__xml_node *node, const char *name,
-                     const ambulo__xml_node *coupler) {
+static int is_held(const ambulo__osim *o, const ambulo__xml_node *node) {
+  int held = ambulo__osim_flag(node, "locked", 0) || ambulo__osim_flag(node, "prescribed", 0);
+  return held && !o->tree->options->unlock;
+}
+
+/* A dependent coordinate: a function of another; where that does not move, or the function is none
+ * that a joint can have, it is held where the function says, and a note says so. */
+static void follow(ambulo__osim *o, ambulo__osim_coordinate *c, const ambulo__xml_node *coupler) {
   const char *leader = ambulo__osim_text(coupler, "independent_coordinate_names", NULL);
   const ambulo__xml_node *holder = ambulo__xml_child(coupler, "coupled_coordinates_function");
   const ambulo__xml_node *function = holder ? holder->first : ambulo__osim_function(coupler);
   const ambulo__xml_node *leading = find_coordinate(o->model, leader, 9);
-  double scale = 1.0, x = default_of(o, leading, leader);
-  (void)ambulo__xml_child_vector(o->xml, coupler, "scale_factor", 1, 0, &scale);
-  double value = function ? scale * ambulo__osim_value(o, function, x) : 0.0;
-  double most = function ? ambulo__osim_travel(o, function, scale, leading, x, value) : 0.0;
+  ambulo__tree_function inner, scale = ambulo__tree_line(1.0, 0.0);
+  double x = default_of(o, leading, leader);
+  (void)ambulo__xml_child_vector(o->xml, coupler, "scale_factor", 1, 0, &scale.polynomial[1]);
+  c->value = function ? scale.polynomial[1] * ambulo__osim_value(o, function, x) : 0.0;
+  int moves = leading && !is_held(o, leading) && !coupler_of(o, leader);
+  if (moves && function && ambulo__osim_read_function(o, function, &inner) &&
+      ambulo__function_of_function(o->tree, &scale, &inner, &c->function)) {
+    c->leader = leader;
+    return;
+  }
+  double most =
+      function ? ambulo__osim_travel(o, function, scale.polynomial[1], leading, x, c->value) : 0.0;
+  c->held = 1;
   ambulo__tree_note(
-      o->tree, node,
+      o->tree, c->node,
       "%s follows %s (%s): it is held at %s; by its %s it would move by up to %s (rad "
       "or m) over that coordinate's range",
-      name, leader, ambulo__xml_name(coupler), ambulo__number_text(value).text,
+      c->name, leader, ambulo__xml_name(coupler), ambulo__number_text(c->value).text,
       function ? function->name : "function", ambulo__three_digits(most).text);
-  return value;
 }
 
 static void read_coordinate(ambulo__osim *o, const ambulo__xml_node *node,
@@ -63,12 +75,10 @@ static void read_coordinate(ambulo__osim *o, const ambulo__xml_node *node,
   *c = (ambulo__osim_coordinate){.name = ambulo__xml_name(node), .node = node};
   c->value = default_of(o, node, c->name);
   const ambulo__xml_node *coupler = coupler_of(o, c->name);
-  int locked = ambulo__osim_flag(node, "locked", 0),
-      prescribed = ambulo__osim_flag(node, "prescribed", 0);
+  int locked = ambulo__osim_flag(node, "locked", 0);
   if (coupler) {
-    c->held = 1;
-    c->value = follow(o, node, c->name, coupler);
-  } else if ((locked || prescribed) && !tree->options->unlock) {
+    follow(o, c, coupler);
+  } else if (is_held(o, node)) {
     c->held = 1;
     ambulo__tree_note(tree, node, "%s is %s in the source: it is held at %s (--unlock: it moves)",
                       c->name, locked ? "locked" : "prescribed",
@@ -178,5 +188,22 @@ void ambulo__osim_contacts(ambulo__osim *o) {
     (void)ambulo__xml_child_vector(o->xml, n, "radius", 1, 0, solid.size);
     if (mesh) ambulo__tree_mesh(o->tree, ambulo__osim_text(n, "filename", NULL), &solid);
     ambulo__tree_add_solid(o->tree, &solid);
+  }
+}
+
+/* ------------------------------------------------------------------------- markers */
+
+void ambulo__osim_markers(ambulo__osim *o) {
+  for (const ambulo__xml_node *n = ambulo__osim_objects(o->model, "MarkerSet"); n; n = n->next) {
+    const char *frame = ambulo__osim_text(n, "socket_parent_frame", "body");
+    if (!frame[0]) frame = ambulo__osim_text(n, "socket_parent_frame_connectee_name", "body_name");
+    if (!ambulo__xml_is(n, "Marker") || !frame[0]) continue;
+    const char *name = ambulo__xml_last_name(frame);
+    for (int b = 1; b < o->body_count; b++) { /* frames with an offset of their own are left out */
+      if (strcmp(o->bodies[b].name, name) != 0 || o->bodies[b].link < 0) continue;
+      double at[3] = {0, 0, 0};
+      if (ambulo__xml_child_vector(o->xml, n, "location", 3, 0, at))
+        ambulo__tree_add_marker(o->tree, ambulo__xml_name(n), o->bodies[b].link, at);
+    }
   }
 }

@@ -4,20 +4,8 @@
  *   LinearFunction                   slope x + offset
  *   PolynomialFunction               c0 x^n + ... + cn
  *   PiecewiseLinearFunction          between points, ends continued
- *   SimmSpline, NaturalCubicSpline   the cubic spline below, ends continued as straight lines
+ *   SimmSpline, NaturalCubicSpline   the spline of model/coupling.c
  *   MultiplierFunction               scale times another one
- *
- * The cubic spline through (x_i, y_i) with steps h_i = x_(i+1) - x_i and slopes of chords
- * m_i = (y_(i+1) - y_i)/h_i has second derivatives 6 s_i with
- *
- *     h_(i-1) s_(i-1) + 2 (h_(i-1) + h_i) s_i + h_i s_(i+1) = m_i - m_(i-1)
- *
- * and is closed at both ends by the third derivative of the cubic through the four points there
- * (Forsythe, Malcolm & Moler 1977), 6 times its third divided difference D:
- *
- *     s_1 - s_0 = h_0 D_0,      s_n - s_(n-1) = h_(n-1) D_n
- *
- * Three points: a parabola (both differences are zero). Two: the line.
  */
 #include <math.h>
 #include <string.h>
@@ -77,55 +65,14 @@ static double piecewise(const points *p, double x) {
   return p->y[i] + slope * (x - p->x[i]);
 }
 
-/* third divided difference of the points i .. i + 3; 0 where there are not so many */
-static double third(const points *p, int i) {
-  double d[4];
-  if (p->count < 4) return 0.0;
-  for (int k = 0; k < 4; k++) d[k] = p->y[i + k];
-  for (int order = 1; order < 4; order++)
-    for (int k = 0; k + order < 4; k++)
-      d[k] = (d[k + 1] - d[k]) / (p->x[i + k + order] - p->x[i + k]);
-  return d[0];
-}
-
-/* s[0 .. count): a sixth of the second derivatives, by elimination from the top; work[count] */
-static void curvatures(const points *p, double *s, double *work) {
-  int n = p->count - 1;
-  double h = p->x[1] - p->x[0];
-  /* -s_0 + s_1 = h_0 D_0, times h_0 to be symmetric */
-  double diagonal = -h;
-  s[0] = h * h * third(p, 0);
-  work[0] = h / diagonal;
-  s[0] /= diagonal;
-  for (int i = 1; i <= n; i++) {
-    double before = p->x[i] - p->x[i - 1], right;
-    if (i < n) {
-      double behind = p->x[i + 1] - p->x[i];
-      diagonal = 2.0 * (before + behind);
-      right = (p->y[i + 1] - p->y[i]) / behind - (p->y[i] - p->y[i - 1]) / before;
-      h = behind;
-    } else { /* s_(n-1) - s_n = -h D_n */
-      diagonal = -before;
-      right = -before * before * third(p, n - 3);
-    }
-    double pivot = diagonal - before * work[i - 1];
-    work[i] = h / pivot;
-    s[i] = (right - before * s[i - 1]) / pivot;
+/* the points in pairs */
+static ambulo__tree_function spline_of(ambulo__osim *o, const points *p) {
+  double *pairs = ambulo__arena_take(o->tree->arena, 2 * (size_t)p->count, sizeof *pairs);
+  for (int i = 0; pairs && i < p->count; i++) {
+    pairs[2 * i] = p->x[i];
+    pairs[2 * i + 1] = p->y[i];
   }
-  for (int i = n - 1; i >= 0; i--) s[i] -= work[i] * s[i + 1];
-}
-
-static double cubic(ambulo__osim *o, const points *p, double x) {
-  double *s = ambulo__arena_take(o->tree->arena, 2 * (size_t)p->count, sizeof *s);
-  if (!s || p->count < 3) return piecewise(p, x);
-  curvatures(p, s, s + p->count);
-  int n = p->count - 1, i = segment_of(p, x);
-  double h = p->x[i + 1] - p->x[i], chord = (p->y[i + 1] - p->y[i]) / h;
-  if (x < p->x[0]) return p->y[0] + (x - p->x[0]) * (chord - h * (s[1] + 2.0 * s[0]));
-  if (x > p->x[n]) return p->y[n] + (x - p->x[n]) * (chord + h * (s[n - 1] + 2.0 * s[n]));
-  double t = x - p->x[i];
-  return p->y[i] +
-         t * (chord - h * (s[i + 1] + 2.0 * s[i]) + t * (3.0 * s[i] + t * (s[i + 1] - s[i]) / h));
+  return (ambulo__tree_function){.count = pairs ? p->count : 0, .points = pairs};
 }
 
 /* ---------------------------------------------------------------------- functions */
@@ -170,7 +117,9 @@ static double value_of(ambulo__osim *o, const ambulo__xml_node *function, double
     return inner && depth < MOST_NESTING ? c[0] * value_of(o, inner, x, depth + 1) : 0.0;
   }
   if (kind < 0 || !read_points(o, function, &p)) return 0.0;
-  return kind == PIECEWISE ? piecewise(&p, x) : cubic(o, &p, x);
+  if (kind == PIECEWISE) return piecewise(&p, x);
+  ambulo__tree_function spline = spline_of(o, &p);
+  return ambulo__function_value(o->tree, &spline, x);
 }
 
 double ambulo__osim_value(ambulo__osim *o, const ambulo__xml_node *function, double x) {
@@ -230,4 +179,52 @@ static int linear_of(ambulo__osim *o, const ambulo__xml_node *function, double *
 int ambulo__osim_is_linear(ambulo__osim *o, const ambulo__xml_node *function, double *slope,
                            double *offset) {
   return linear_of(o, function, slope, offset, 0);
+}
+
+/* ------------------------------------------------------------- as joints can have them */
+
+/* c0 x^n + ... + cn; 0: of a degree above 4 */
+static int read_polynomial(ambulo__osim *o, const ambulo__xml_node *function,
+                           ambulo__tree_function *f) {
+  double c[16] = {0.0};
+  const ambulo__xml_node *node = ambulo__xml_child(function, "coefficients");
+  int count = node ? ambulo__xml_numbers(o->xml, node, "the text", node->text, 16, 0, c) : 0;
+  if (count > 16) return 0;
+  for (int i = 0; i < count; i++) {
+    int power = count - 1 - i;
+    if (power >= AMBULO__COUPLING_TERMS && c[i] != 0.0) return 0;
+    if (power < AMBULO__COUPLING_TERMS) f->polynomial[power] = c[i];
+  }
+  return 1;
+}
+
+static int function_of(ambulo__osim *o, const ambulo__xml_node *function, ambulo__tree_function *f,
+                       int depth) {
+  int kind = kind_of(o, function);
+  double slope, offset;
+  points p;
+  *f = (ambulo__tree_function){0};
+  if (kind == MULTIPLIER) {
+    const ambulo__xml_node *inner = ambulo__osim_function(function);
+    ambulo__tree_function whole, times = ambulo__tree_line(1.0, 0.0);
+    (void)ambulo__xml_child_vector(o->xml, function, "scale", 1, 0, &times.polynomial[1]);
+    if (!inner || depth >= MOST_NESTING || !function_of(o, inner, f, depth + 1)) return 0;
+    if (!ambulo__function_of_function(o->tree, &times, f, &whole)) return 0;
+    *f = whole;
+    return 1;
+  }
+  if (kind == POLYNOMIAL) return read_polynomial(o, function, f);
+  if (linear_of(o, function, &slope, &offset, depth)) {
+    *f = ambulo__tree_line(slope, offset);
+    return 1;
+  }
+  if (kind < 0 || kind == PIECEWISE || !read_points(o, function, &p)) return 0;
+  if (p.count > AMBULO__MOST_KNOTS) return 0;
+  *f = spline_of(o, &p);
+  return f->count > 0;
+}
+
+int ambulo__osim_read_function(ambulo__osim *o, const ambulo__xml_node *function,
+                               ambulo__tree_function *f) {
+  return function_of(o, function, f, 0);
 }

@@ -10,18 +10,6 @@
 
 #include <math.h>
 
-static ambulo__rigid start_place(const ambulo__tree *tree, int link) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    ambulo__rigid step =
-        ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->coordinate.default_value);
-    if (l->type != AMBULO_FIXED) place = ambulo__rigid_times(&step, &place);
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
-}
-
 static void keep_in_range(ambulo__tree *tree, ambulo__tree_link *link) {
   ambulo_coordinate *c = &link->coordinate;
   double inside = fmin(c->range[1], fmax(c->range[0], c->default_value));
@@ -38,8 +26,8 @@ static int lift_of(const ambulo__tree *tree, int link, const double up[3], doubl
   for (int i = link; i >= 0; i = tree->links[i].parent) {
     const ambulo__tree_link *l = &tree->links[i];
     double axis[3];
-    if (l->type != AMBULO_PRISMATIC || l->coordinate.actuated) continue;
-    ambulo__rigid place = start_place(tree, i);
+    if (l->type != AMBULO_PRISMATIC || l->follows || l->coordinate.actuated) continue;
+    ambulo__rigid place = ambulo__tree_start_place(tree, i);
     ambulo__rigid_vector(&place, l->axis, axis);
     double cosine = ambulo__dot(axis, up);
     if (fabs(cosine) < 0.999) continue;
@@ -60,7 +48,7 @@ static void start_pose_stand(ambulo__tree *tree) {
       double at[3];
       if (points[k] < 0) continue;
       const ambulo__tree_point *point = &tree->points[points[k]];
-      ambulo__rigid place = start_place(tree, point->link);
+      ambulo__rigid place = ambulo__tree_start_place(tree, point->link);
       ambulo__rigid_point(&place, point->position, at);
       lowest = fmin(lowest, ambulo__dot(at, up));
     }

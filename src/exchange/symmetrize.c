@@ -197,12 +197,21 @@ static void mean_limits(ambulo__sides *s, double a[2], double b[2], double sign)
   }
 }
 
+static void mean_number(ambulo__sides *s, double *a, double *b) {
+  double mean = 0.5 * (*a + *b);
+  s->limits += fabs(*a - mean) > 1e-9 * mean;
+  *a = *b = mean;
+}
+
 static void mean_coordinate(ambulo__sides *s, int i, int j) {
   ambulo_coordinate *a = &s->tree->links[i].coordinate, *b = &s->tree->links[j].coordinate;
   double sign = s->sign[i];
   mean_limits(s, a->range, b->range, sign);
   mean_limits(s, a->speed, b->speed, sign);
   mean_limits(s, a->torque, b->torque, sign);
+  mean_number(s, &a->armature, &b->armature);
+  mean_number(s, &a->damping, &b->damping);
+  mean_number(s, &a->friction, &b->friction);
   double start = 0.5 * (a->default_value + sign * b->default_value);
   if (i == j && sign < 0.0) start = 0.0;
   s->limits += fabs(a->default_value - start) > 1e-9;

@@ -6,22 +6,32 @@
 
 #include <math.h>
 
-void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]) {
-  for (int i = 0; i < 3; i++) {
-    axes[2][i] = -tree->gravity[i];
-    axes[0][i] = tree->forward[i];
+/* a link behind its joint, in its parent; the joint stands at `value` */
+static ambulo__rigid in_parent(const ambulo__tree_link *l, double value) {
+  if (value == 0.0) return l->origin;
+  ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, value);
+  return ambulo__rigid_times(&l->origin, &step);
+}
+
+/* `whole`: coordinates from that link on to the world are at 0; -1: none are */
+static ambulo__rigid place_of(const ambulo__tree *tree, int link, int start, int whole) {
+  ambulo__rigid place = ambulo__rigid_identity();
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    if (i == whole) start = 0;
+    ambulo__rigid own =
+        in_parent(l, l->type == AMBULO_FIXED ? 0.0 : ambulo__tree_stands(tree, i, start));
+    place = ambulo__rigid_times(&own, &place);
   }
-  (void)ambulo__normalize(axes[2]);
-  ambulo__cross(axes[2], axes[0], axes[1]);
-  (void)ambulo__normalize(axes[1]);
-  ambulo__cross(axes[1], axes[2], axes[0]);
+  return place;
 }
 
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent)
-    place = ambulo__rigid_times(&tree->links[i].origin, &place);
-  return place;
+  return place_of(tree, link, 0, -1);
+}
+
+ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link) {
+  return place_of(tree, link, 1, -1);
 }
 
 int ambulo__tree_leader(const ambulo__tree *tree, int link) {
@@ -78,19 +88,7 @@ int ambulo__tree_trunk(const ambulo__tree *tree) {
 }
 
 ambulo__rigid ambulo__tree_pose_of(const ambulo__tree *tree, int link, int start) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  int whole = !start;
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    whole |= i == tree->trunk;
-    if (!whole && l->type != AMBULO_FIXED) {
-      ambulo__rigid step =
-          ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->coordinate.default_value);
-      place = ambulo__rigid_times(&step, &place);
-    }
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
+  return place_of(tree, link, start, tree->trunk);
 }
 
 void ambulo__tree_whole(const ambulo__tree *tree, int leader, ambulo__part *body) {

@@ -78,6 +78,16 @@ static void print_limits(ambulo__text_buffer *text, const char *key, const doubl
   ambulo__text_append(text, "]");
 }
 
+static void print_drive(const ambulo_coordinate *c, ambulo__text_buffer *text) {
+  static const char *const keys[] = {"armature", "damping", "friction"};
+  const double values[] = {c->armature, c->damping, c->friction};
+  for (int i = 0; i < 3; i++) {
+    if (values[i] == 0.0) continue;
+    ambulo__text_append_format(text, ", %s: ", keys[i]);
+    ambulo__text_append_number(text, values[i]);
+  }
+}
+
 static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *link,
                              ambulo__text_buffer *text) {
   const ambulo_coordinate *c = &link->coordinate;
@@ -90,6 +100,7 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
   }
   print_limits(text, "speed", c->speed, unit);
   print_limits(text, "torque", c->torque, 1.0);
+  print_drive(c, text);
   if (!c->actuated) ambulo__text_append(text, ", actuated: false");
   if (link->has_mirror) {
     const char *partner = tree->links[c->mirror].coordinate.name;
@@ -97,6 +108,29 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
     if (c->mirror_sign < 0.0) ambulo__text_append(text, ", mirror_sign: -1");
   }
   ambulo__text_append(text, "}");
+}
+
+/* Angles of both sides in degrees: c_i becomes c_i X^i / Y. */
+static void print_function(const ambulo__tree *tree, const ambulo__tree_link *link,
+                           ambulo__text_buffer *text) {
+  const ambulo__tree_function *f = &link->function;
+  const ambulo__tree_link *to = &tree->links[ambulo__tree_find_coordinate(tree, link->follows)];
+  double x = to->type == AMBULO_REVOLUTE ? degree : 1.0;
+  double y = link->type == AMBULO_REVOLUTE ? degree : 1.0, factor = 1.0 / y;
+  int last = AMBULO__COUPLING_TERMS - 1;
+  while (last > 0 && f->polynomial[last] == 0.0) last--;
+  ambulo__text_append_format(text, ",\n     coupled: {to: %s, %s: [", to->coordinate.name,
+                             f->count ? "spline" : "polynomial");
+  for (int i = 0; i <= last && f->count == 0; i++, factor *= x) {
+    if (i) ambulo__text_append(text, ", ");
+    ambulo__text_append_number(text, neat(factor * f->polynomial[i]));
+  }
+  for (int i = 0; i < f->count; i++) {
+    const double pair[2] = {f->points[2 * i] / x, f->points[2 * i + 1] / y};
+    if (i) ambulo__text_append(text, i % 4 ? ", " : ",\n       ");
+    list(text, pair, 2, neat);
+  }
+  ambulo__text_append(text, "]}");
 }
 
 static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
@@ -122,7 +156,10 @@ static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
   if (link->type != AMBULO_FIXED) {
     ambulo__text_append(text, ", axis: ");
     list(text, link->axis, 3, neat_turn);
-    print_coordinate(tree, link, text);
+    if (link->follows)
+      print_function(tree, link, text);
+    else
+      print_coordinate(tree, link, text);
   }
   if (link->body.mass > 0.0) {
     ambulo__text_append(text, ",\n     body: {mass: ");
@@ -143,17 +180,25 @@ static void print_corners(const ambulo__tree *tree, const char *key, const int c
   ambulo__text_append(text, "]");
 }
 
+static void print_sole(const ambulo__tree *tree, const ambulo__tree_foot *foot,
+                       ambulo__text_buffer *text) {
+  print_corners(tree, "heel", foot->heel, text);
+  print_corners(tree, "toe", foot->toe, text);
+  ambulo__text_append_format(text, ",\n     heel_center: %s, toe_center: %s",
+                             tree->points[foot->heel_center].name,
+                             tree->points[foot->toe_center].name);
+}
+
 static void print_feet(const ambulo__tree *tree, ambulo__text_buffer *text) {
   ambulo__text_append(text, "\nfeet:\n");
   for (int i = 0; i < tree->foot_count; i++) {
     const ambulo__tree_foot *foot = &tree->feet[i];
     int mirror = ambulo__tree_mirror_foot(tree, i);
     ambulo__text_append_format(text, "  - {name: %s", foot->name);
-    print_corners(tree, "heel", foot->heel, text);
-    print_corners(tree, "toe", foot->toe, text);
-    ambulo__text_append_format(text, ",\n     heel_center: %s, toe_center: %s",
-                               tree->points[foot->heel_center].name,
-                               tree->points[foot->toe_center].name);
+    if (foot->heel_center == foot->toe_center)
+      ambulo__text_append_format(text, ", point: %s", tree->points[foot->heel_center].name);
+    else
+      print_sole(tree, foot, text);
     if (mirror >= 0) ambulo__text_append_format(text, ", mirror: %s", tree->feet[mirror].name);
     ambulo__text_append(text, "}\n");
   }

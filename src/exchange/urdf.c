@@ -10,7 +10,7 @@
  *   fixed                             none
  *   planar                            two sliders across the axis, then a hinge about it
  *   floating                          three sliders and three hinges (body_tree.c)
- *   with <mimic>                      held where it is when the joint it follows is at its pose
+ *   with <mimic>                      none: it follows the coordinate of the other joint
  */
 #include "base/numtext.h"
 #include "base/arithmetic.h"
@@ -80,38 +80,19 @@ static void add_planar(ambulo__chain *chain, const double axis[3], const char *n
                               ambulo__arena_print(chain->tree->arena, "%.50s_%s", name, parts[i]));
 }
 
-/* the joint beside this one that has a name; NULL */
-static const ambulo__xml_node *joint_named(const ambulo__xml_node *beside, const char *name) {
-  const ambulo__xml_node *n = ambulo__xml_child(beside->parent, "joint");
-  while (n && strcmp(ambulo__xml_name(n), name) != 0) n = ambulo__xml_next(n, "joint");
-  return n;
-}
-
-/* The value at which a joint with <mimic> is held. */
-static double follow(ambulo__tree *tree, const ambulo__xml_node *joint,
-                     const ambulo__xml_node *mimic) {
-  const char *leader = ambulo__xml_attribute(mimic, "joint"), *name = ambulo__xml_name(joint);
+/* <mimic>: multiplier times another joint's coordinate plus offset. */
+static void follow(ambulo__tree *tree, const ambulo__xml_node *mimic, const char *name, int link) {
+  const char *leader = ambulo__xml_attribute(mimic, "joint");
   double multiplier = 1.0, offset = 0.0;
   if (!leader) {
     ambulo__xml_error(tree->xml, mimic, AMBULO_E_SCHEMA, NULL,
                       "<mimic> of joint '%.60s' names no joint; expected joint=...", name);
-    return 0.0;
+    return;
   }
   (void)ambulo__xml_vector(tree->xml, mimic, "multiplier", 1, &multiplier);
   (void)ambulo__xml_vector(tree->xml, mimic, "offset", 1, &offset);
-  double stands = ambulo__tree_pose(tree, leader, 0.0), range[2] = {stands, stands};
-  double value = multiplier * stands + offset;
-  const ambulo__xml_node *limit = ambulo__xml_child(joint_named(joint, leader), "limit");
-  (void)ambulo__xml_vector(tree->xml, limit, "lower", 1, &range[0]);
-  (void)ambulo__xml_vector(tree->xml, limit, "upper", 1, &range[1]);
-  double most = fabs(multiplier) * fmax(fabs(range[0] - stands), fabs(range[1] - stands));
-  ambulo__tree_note(tree, joint,
-                    "%s follows %s (times %s plus %s): it is held at %s; it would move by up to %s "
-                    "(rad or m) over that coordinate's range",
-                    name, leader, ambulo__number_text(multiplier).text,
-                    ambulo__number_text(offset).text, ambulo__number_text(value).text,
-                    ambulo__three_digits(most).text);
-  return value;
+  ambulo__tree_function line = ambulo__tree_line(multiplier, offset);
+  ambulo__tree_couple(tree, link, leader, &line);
 }
 
 enum { REVOLUTE, CONTINUOUS, PRISMATIC, FIXED, FLOATING, PLANAR, TYPES };
@@ -121,16 +102,19 @@ static int one_coordinate(ambulo__chain *chain, int type, const ambulo__xml_node
   ambulo__tree *tree = chain->tree;
   const char *name = ambulo__xml_name(joint);
   const ambulo__xml_node *mimic = ambulo__xml_child(joint, "mimic");
-  if (mimic) {
-    ambulo__rigid held = ambulo__rigid_step(type == PRISMATIC, axis, follow(tree, joint, mimic));
-    ambulo__chain_place(chain, &held);
-    return 1;
-  }
   int link = ambulo__chain_joint(chain, type == PRISMATIC ? AMBULO_PRISMATIC : AMBULO_REVOLUTE,
                                  axis, name);
   if (link < 0) return 0;
+  if (mimic) {
+    follow(tree, mimic, name, link);
+    return 1;
+  }
+  ambulo_coordinate *c = &tree->links[link].coordinate;
+  const ambulo__xml_node *dynamics = ambulo__xml_child(joint, "dynamics");
   read_limits(tree, joint, type != CONTINUOUS, link);
-  tree->links[link].coordinate.default_value = ambulo__tree_pose(tree, name, 0.0);
+  c->default_value = ambulo__tree_pose(tree, name, 0.0);
+  (void)ambulo__xml_vector(tree->xml, dynamics, "damping", 1, &c->damping);
+  (void)ambulo__xml_vector(tree->xml, dynamics, "friction", 1, &c->friction);
   return 1;
 }
 
@@ -229,17 +213,14 @@ static void read_link(ambulo__tree *tree, int link, const ambulo__xml_node *node
 static void note_leftovers(ambulo__tree *tree, const ambulo__xml_node *root) {
   int damped = 0, unlimited = 0;
   AMBULO__XML_EACH (n, root, "joint") {
-    const ambulo__xml_node *dynamics = ambulo__xml_child(n, "dynamics");
-    double damping = 0.0, friction = 0.0;
-    (void)ambulo__xml_vector(tree->xml, dynamics, "damping", 1, &damping);
-    (void)ambulo__xml_vector(tree->xml, dynamics, "friction", 1, &friction);
-    damped += damping != 0.0 || friction != 0.0;
     const char *type = ambulo__xml_attribute(n, "type");
+    int several = type && (strcmp(type, "planar") == 0 || strcmp(type, "floating") == 0);
+    damped += several && ambulo__xml_child(n, "dynamics");
     int limited = type && (strcmp(type, "revolute") == 0 || strcmp(type, "prismatic") == 0);
     unlimited += limited && !ambulo__xml_child(n, "limit") && !ambulo__xml_child(n, "mimic");
   }
   if (damped)
-    ambulo__tree_note(tree, root, "damping and friction of %d joints are left out", damped);
+    ambulo__tree_note(tree, root, "<dynamics> of %d planar or floating joints is left out", damped);
   if (unlimited)
     ambulo__tree_note(tree, root, "%d joints have no <limit>: their coordinates have no range",
                       unlimited);

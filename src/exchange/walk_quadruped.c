@@ -79,18 +79,17 @@ static void print_head(const stride *s) {
                              (int)(s->part * INTERVALS), (int)(s->part * PIECES));
 }
 
-/* the part of a stance that is in what is written; 0: none */
-static int print_contact(const stride *s, int foot, double from, double to) {
+/* the part of a stance that is in what is written */
+static void print_contact(const stride *s, int foot, double from, double to) {
   double middle = 0.5 * (from + to), begin = fmax(from, 0.0), end = fmin(to, s->part);
   const double *at = s->w->at[foot];
-  if (end - begin < 1e-9) return 0;
+  if (end - begin < 1e-9) return;
   ambulo__text_append_format(s->text, "  - {foot: %s, mode: flat, from: ",
                              ambulo_model_foot(s->w->model, s->w->foot[foot])->name);
   line(s, "", begin * s->time, ", to: ");
   line(s, "", end * s->time, ", place: [");
   line(s, "", at[0] + s->travel * middle, ", ");
   line(s, "", at[1], "]}\n");
-  return 1;
 }
 
 static void print_contacts(const stride *s) {
@@ -101,7 +100,7 @@ static void print_contacts(const stride *s) {
   for (int foot = 0; foot < FEET; foot++)
     for (int before = 1; before >= 0; before--) {
       double from = s->gait->strike[foot] - before;
-      (void)print_contact(s, foot, from, from + s->gait->share);
+      print_contact(s, foot, from, from + s->gait->share);
     }
 }
 

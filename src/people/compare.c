@@ -165,7 +165,7 @@ static ambulo_status expect_walk(comparing *c) {
                     "no 'gait' in this summary: the shipped curves are those of people who walk "
                     "steadily on level ground");
   int loaded = 0;
-  ambulo_status status = ambulo__cycle_samples(&c->cycle, "grf.{foot}.up", AMBULO__CYCLE_LEFT,
+  ambulo_status status = ambulo__cycle_samples(&c->cycle, "grf.{foot}.up", 0, AMBULO__CYCLE_LEFT,
                                                c->cycle.scratch, &loaded);
   c->angles_alone = !loaded;
   return status;

@@ -7,6 +7,7 @@
 #include "ambulo/tools/report.h"
 #include "formats/motion_file.h"
 #include "formats/sheet.h"
+#include "people/body_joints.h"
 
 #define AMBULO__CURVE_NAME 64
 
@@ -37,7 +38,9 @@ typedef struct ambulo__map_entry {
   int opposite;  /* 1: the right side takes -factor */
   int tilted;    /* 1: the pelvic tilt is added */
   ambulo__curve_unit unit;
-  double lag; /* s: the result comes so much later than the reference */
+  double lag;  /* s: the result comes so much later than the reference */
+  int by_body; /* 1: joints of the result are a person's, whatever the body calls them and whichever
+                  way it counts them (people/body_joints.h); 0: columns as they are */
 } ambulo__map_entry;
 
 typedef struct ambulo__map {
@@ -122,6 +125,12 @@ ambulo_status ambulo__subject_given(const char *text, int side, const char *file
 
 typedef enum ambulo__cycle_side { AMBULO__CYCLE_LEFT, AMBULO__CYCLE_RIGHT } ambulo__cycle_side;
 
+/* A joint that the body of a result calls or counts otherwise than people do. */
+typedef struct ambulo__cycle_joint {
+  char name[AMBULO__JOINT_NAME], coordinate[AMBULO__MOTION_MAX_NAME + 1];
+  int sign;
+} ambulo__cycle_joint;
+
 typedef struct ambulo__cycle {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
@@ -135,6 +144,8 @@ typedef struct ambulo__cycle {
   double mass, gravity;        /* kg, m/s^2; mass 0: not known */
   double up[3], forward[3];
   int warned_open;
+  ambulo__cycle_joint joint[AMBULO__BODY_JOINTS];
+  int joint_count;
   int told_strikes, told_gait; /* by the summary: how many strikes; 1: the motion is a gait */
   ambulo__subject *subject;    /* a person's own motion: in place of sheet, strike and length */
 } ambulo__cycle;
@@ -161,8 +172,12 @@ ambulo_status ambulo__cycle_spread(ambulo__cycle *cycle, const ambulo__map_entry
                                    ambulo__cycle_side side, const double *percents, int count,
                                    double *values, double *squares, int *strides);
 
-/* The samples of a result expression for one side, [rows], SI units. */
-ambulo_status ambulo__cycle_samples(ambulo__cycle *cycle, const char *expression,
+struct ambulo__yaml_node;
+/* Joints that the body calls or counts otherwise than people do, of summary.json; may be NULL. */
+void ambulo__cycle_take_joints(ambulo__cycle *cycle, const struct ambulo__yaml_node *joints);
+
+/* The samples of a result expression for one side, [rows], SI units; by_body as of a map entry. */
+ambulo_status ambulo__cycle_samples(ambulo__cycle *cycle, const char *expression, int by_body,
                                     ambulo__cycle_side side, double *values, int *found);
 
 /* one curve of a motion over the cycle: of the foot that is asked for, or

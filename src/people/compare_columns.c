@@ -90,6 +90,24 @@ static void turn_knee(ambulo__subject *s, const ambulo__motion *motion, found_co
                motion->names[found->column]);
 }
 
+/* the column of a joint under any of its names */
+static ambulo_status find_joint(const ambulo__subject *s, const ambulo__motion *motion,
+                                const char *joint, int *column) {
+  char name[AMBULO__JOINT_NAME];
+  int index = 0;
+  for (; index < AMBULO__BODY_JOINTS; index++) {
+    ambulo__joint_name(index, name);
+    if (strcmp(name, joint) == 0) break;
+  }
+  ambulo_status status = AMBULO_OK;
+  for (int alias = 0; !status && *column < 0 && index < AMBULO__BODY_JOINTS &&
+                      ambulo__joint_alias(index, alias, name);
+       alias++)
+    status =
+        ambulo__motion_find(motion, s->file, name, AMBULO__ORDER_VALUE, s->diagnostics, column);
+  return status;
+}
+
 /* the columns of OpenSim's kind; all in one unit */
 static ambulo_status find_coordinates(ambulo__subject *s, const ambulo__motion *motion,
                                       found_column found[ROWS], int *count) {
@@ -97,8 +115,7 @@ static ambulo_status find_coordinates(ambulo__subject *s, const ambulo__motion *
   for (int i = 0; i < ROWS; i++) {
     int column = -1;
     if (i > 0 && strcmp(rows[i].name, rows[i - 1].name) == 0) continue;
-    ambulo_status status = ambulo__motion_find(motion, s->file, rows[i].name, AMBULO__ORDER_VALUE,
-                                               s->diagnostics, &column);
+    ambulo_status status = find_joint(s, motion, rows[i].name, &column);
     if (status) return status;
     if (column < 0) continue;
     extent(motion, column, &low, &high);

@@ -47,6 +47,7 @@ static ambulo_status read_times(ambulo__cycle *c) {
 }
 
 static void read_body(ambulo__cycle *c, const ambulo__yaml_node *body) {
+  ambulo__cycle_take_joints(c, ambulo__yaml_get(body, "joints"));
   c->mass = ambulo__yaml_number(ambulo__yaml_get(body, "mass"), 0.0);
   c->gravity = ambulo__yaml_number(ambulo__yaml_get(body, "gravity"), c->gravity);
   (void)ambulo__yaml_numbers(ambulo__yaml_get(body, "up"), 3, c->up);
@@ -182,7 +183,7 @@ static ambulo_status refuse_options_of_a_subject(const char *directory,
 static ambulo_status find_onset(ambulo__cycle *c, ambulo__cycle_side side, int have[2]) {
   double *force = c->scratch, peak = 0.0;
   int found = 0;
-  ambulo_status status = ambulo__cycle_samples(c, "grf.{foot}.up", side, force, &found);
+  ambulo_status status = ambulo__cycle_samples(c, "grf.{foot}.up", 0, side, force, &found);
   if (status || !found) return status;
   for (int k = 0; k < c->rows; k++) peak = fmax(peak, force[k]);
   for (int k = 0; k + 1 < c->rows && !have[side]; k++) {
@@ -375,7 +376,7 @@ ambulo_status ambulo__cycle_spread(ambulo__cycle *c, const ambulo__map_entry *en
   int found = 0, is_angle = entry->unit == AMBULO__UNIT_ANGLE;
   int by_mass = !is_angle && entry->unit != AMBULO__UNIT_NONE;
   *strides = 0;
-  ambulo_status status = ambulo__cycle_samples(c, entry->result, side, y, &found);
+  ambulo_status status = ambulo__cycle_samples(c, entry->result, entry->by_body, side, y, &found);
   if (status || !found || (by_mass && !(c->mass > 0.0))) return status;
   if (!c->subject) warn_if_open(c, y, entry->curve);
   double factor = entry->factor * (is_angle ? 57.295779513082321 : by_mass ? 1.0 / c->mass : 1.0);

@@ -2,6 +2,8 @@
  * muscles.csv (compare.h). */
 #include "people/compare.h"
 
+#include "formats/yaml_node.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -131,7 +133,36 @@ static const char *direction_of(const char *name) {
   return NULL;
 }
 
-ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
+/* joints that the body calls or counts otherwise than people do */
+void ambulo__cycle_take_joints(ambulo__cycle *c, const ambulo__yaml_node *joints) {
+  int count = joints ? ambulo__yaml_pairs(joints) : 0;
+  for (int i = 0; i < count && c->joint_count < AMBULO__BODY_JOINTS; i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_value(joints, i);
+    ambulo__cycle_joint *joint = &c->joint[c->joint_count++];
+    (void)snprintf(joint->name, sizeof joint->name, "%.*s", AMBULO__JOINT_NAME - 1,
+                   ambulo__yaml_key(joints, i));
+    (void)snprintf(joint->coordinate, sizeof joint->coordinate, "%.*s", AMBULO__MOTION_MAX_NAME,
+                   ambulo__yaml_text(ambulo__yaml_get(node, "coordinate")));
+    joint->sign = ambulo__yaml_number(ambulo__yaml_get(node, "sign"), 1.0) < 0.0 ? -1 : 1;
+  }
+}
+
+/* q.JOINT, tau.JOINT, power.JOINT of a person become those of the body; returns the sign */
+static double translate(const ambulo__cycle *c, char name[NAME_SIZE]) {
+  const char *dot = strchr(name, '.');
+  for (int i = 0; dot && i < c->joint_count; i++) {
+    const ambulo__cycle_joint *joint = &c->joint[i];
+    if (strcmp(dot + 1, joint->name) != 0) continue;
+    char own[NAME_SIZE];
+    int power = strncmp(name, "power.", 6) == 0;
+    int length = snprintf(own, sizeof own, "%.*s.%s", (int)(dot - name), name, joint->coordinate);
+    if (length < NAME_SIZE) memcpy(name, own, (size_t)length + 1);
+    return power ? 1.0 : joint->sign;
+  }
+  return 1.0;
+}
+
+ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression, int by_body,
                                     ambulo__cycle_side side, double *values, int *found) {
   double *scratch = c->scratch + 3 * (size_t)c->rows;
   int any = 0;
@@ -143,6 +174,7 @@ ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
     int has = 0;
     ambulo_status status = AMBULO_OK;
     if (expand(at, length, side, name)) {
+      double sign = by_body ? translate(c, name) : 1.0;
       const char *direction = direction_of(name);
       if (direction) {
         status = take_component(c, name, direction, values, &has);
@@ -151,7 +183,7 @@ ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
       } else if (strncmp(name, "size.", 5) == 0) {
         status = take_size(c, name, scratch, values, &has);
       } else {
-        status = take_column(c, name, 1.0, 0, values, &has);
+        status = take_column(c, name, sign, 0, values, &has);
       }
     }
     if (status) return status;

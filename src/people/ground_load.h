@@ -80,9 +80,9 @@ double ambulo__load_share(const ambulo_model *model, const double *frames, int l
 ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const ambulo_model *model,
                                         const double *q, double *tau);
 
-/* tau [d] of one pose loses what a force on `link` and its moment about the world's origin come to;
- * frames [links][12] (mechanics/pose.h). */
-void ambulo__load_take(const ambulo_model *model, const double *frames, int link,
+/* tau [d] of one pose q [d] loses what a force on `link` and its moment about the world's origin
+ * come to; frames [links][12] (mechanics/pose.h). */
+void ambulo__load_take(const ambulo_model *model, const double *frames, int link, const double *q,
                        const double force[3], const double moment[3], double *tau);
 
 /* Centres of pressure cop [rows][feet][3] on the plane up . r = height (nan where the ground does

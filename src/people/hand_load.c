@@ -296,8 +296,8 @@ void ambulo__hand_load_free(ambulo__hand_load *load) {
 
 /* (I.5) one hand of one row: tau [d], wrench [6]; returns the power of its force */
 static double apply_hand(const ambulo_model *model, const ambulo__pose *pose, int point,
-                         const double force[3], const double moment[3], const double *qd,
-                         double *tau, double *wrench) {
+                         const double force[3], const double moment[3], const double *q,
+                         const double *qd, double *tau, double *wrench) {
   const ambulo_point *hand = &model->points[point];
   double place[3], lever[3], zero[3] = {0.0, 0.0, 0.0}, power = 0.0;
   ambulo__pose_point(pose, hand->link, hand->position, place);
@@ -307,10 +307,12 @@ static double apply_hand(const ambulo_model *model, const ambulo__pose *pose, in
     wrench[3 + k] += force[k];
   }
   for (int link = hand->link; link >= 0; link = model->links[link].parent) {
-    int i = model->links[link].coordinate;
+    double slope[AMBULO__COUPLING_SLOPES];
+    int i = ambulo__moved_by(model, link);
     if (i < 0) continue;
-    double by_force = ambulo__load_share(model, pose->frames, link, force, lever);
-    tau[i] += by_force + ambulo__load_share(model, pose->frames, link, zero, moment);
+    (void)ambulo__joint_value(model, link, q, slope);
+    double by_force = slope[0] * ambulo__load_share(model, pose->frames, link, force, lever);
+    tau[i] += by_force + slope[0] * ambulo__load_share(model, pose->frames, link, zero, moment);
     power += qd[i] * by_force;
   }
   return power;
@@ -330,8 +332,8 @@ ambulo_status ambulo__hand_load_apply(ambulo__hand_load *load, const ambulo_mode
       int point = load->hold[i / 2].hand[i % 2];
       if (point < 0) continue;
       load->power[k * loads + i / 2] +=
-          apply_hand(model, &pose, point, load->force + at, load->moment + at, qd + k * d,
-                     tau + k * d, wrench + 6 * k);
+          apply_hand(model, &pose, point, load->force + at, load->moment + at, q + k * d,
+                     qd + k * d, tau + k * d, wrench + 6 * k);
     }
   }
   ambulo__pose_free(&pose);

@@ -30,8 +30,9 @@ static int options_valid(const ambulo_inverse_options *o) {
   int order = o->filter_order;
   return is_unit(o->length_unit) && is_unit(o->time_unit) && is_unit(o->force_length_unit) &&
          is_unit(o->force_time_unit) && is_cutoff(o->cutoff) && is_cutoff(o->force_cutoff) &&
-         (order == 2 || order == 4 || order == 6 || order == 8) && isfinite(o->ground_height) &&
-         o->angles >= AMBULO_ANGLES_OF_FILE && o->angles <= AMBULO_ANGLES_RADIANS;
+         !(o->from > o->to) && (order == 2 || order == 4 || order == 6 || order == 8) &&
+         isfinite(o->ground_height) && o->angles >= AMBULO_ANGLES_OF_FILE &&
+         o->angles <= AMBULO_ANGLES_RADIANS;
 }
 
 static void clear(ambulo__inverse *v) {
@@ -43,6 +44,7 @@ static void clear(ambulo__inverse *v) {
   ambulo__free(a, v->has_rate);
   ambulo__free(a, v->has_acceleration);
   ambulo__motion_free(v->given);
+  ambulo__motion_free(v->force_table);
   ambulo__ground_load_free(&v->load);
   ambulo__hand_load_free(&v->hands);
 }
@@ -92,7 +94,7 @@ static ambulo_status apply_hands(ambulo__inverse *v) {
   int own = ambulo__has_hand_loads(v->given);
   ambulo__load_source source = {.model = v->model,
                                 .file = own ? v->file : v->options.forces,
-                                .table = own ? v->given : NULL,
+                                .table = own ? v->given : v->force_table,
                                 .options = &v->options,
                                 .times = v->given->time,
                                 .rows = v->rows,
@@ -119,6 +121,16 @@ static const char *forces_of(const ambulo__inverse *v) {
     if (strncmp(v->given->names[c], "grf.", 4) == 0) return v->file;
   }
   return NULL;
+}
+
+/* once for feet and hands */
+static ambulo_status read_forces(ambulo__inverse *v) {
+  const char *file = v->options.forces;
+  if (v->options.without_forces || !file || strcmp(file, v->file) == 0) return AMBULO_OK;
+  ambulo_status status =
+      ambulo__motion_read(file, 1, &v->allocator, v->doubts.diagnostics, &v->force_table);
+  if (!status) ambulo__doubt_header(&v->doubts, file, v->force_table);
+  return status;
 }
 
 static void tell(const ambulo__inverse *v, const char *forces, const ambulo_ground_residual *r) {
@@ -169,7 +181,7 @@ static ambulo_status apply_forces(ambulo__inverse *v, const char *forces,
                          "the model '%s' has no feet that forces could act on", v->model->name);
   ambulo__load_source source = {.model = v->model,
                                 .file = forces,
-                                .table = own ? v->given : NULL,
+                                .table = own ? v->given : v->force_table,
                                 .options = &v->options,
                                 .times = v->given->time,
                                 .rows = v->rows,
@@ -257,6 +269,9 @@ static ambulo_status run(ambulo__inverse *v, const char *output, ambulo_ground_r
   ambulo_status status = expect_paths(v, output);
   if (!status) status = check_output(v, output);
   if (!status) status = ambulo__inverse_read(v);
+  if (!status) status = read_forces(v);
+  if (!status) status = ambulo__inverse_take_span(v);
+  if (!status) status = ambulo__inverse_take_covered(v);
   if (!status) status = compute(v);
   if (!status) status = apply_hands(v);
   if (!status) zero_moment_points(v);

@@ -15,7 +15,8 @@ typedef struct ambulo__inverse {
   ambulo_inverse_options options;
   const char *file;
   ambulo__doubts doubts;
-  ambulo__motion *given; /* as in the file, but for its times, which are in s */
+  ambulo__motion *given;       /* as in the file, but for its times, which are in s */
+  ambulo__motion *force_table; /* of the file of forces; NULL: the motion's own, or none */
   int rows;
   /* [rows][d]; rates and accelerations: of the file, or of a spline */
   double *q, *qd, *qdd;
@@ -34,6 +35,11 @@ typedef struct ambulo__inverse {
  * Doubts about units, rates and the body are warnings. Errors: those of ambulo__motion_read,
  * E_SCHEMA, E_NUMERIC, E_MEMORY. */
 ambulo_status ambulo__inverse_read(ambulo__inverse *v);
+
+/* inverse_span.c: leaves the rows from options.from to options.to, and of them those at which there
+ * are forces, where that is not all of them, with a doubt. Errors: E_SCHEMA (none are left). */
+ambulo_status ambulo__inverse_take_span(ambulo__inverse *inverse);
+ambulo_status ambulo__inverse_take_covered(ambulo__inverse *inverse);
 
 /* ------------------------------------------------------ doubts (plausibility.c) */
 

@@ -37,14 +37,18 @@ static void add_turning(const link_motion *m, const double r[3], double a[3]) {
   ambulo__add_cross(m->w, swept, 1.0, a);
 }
 
-static void move_link(const ambulo__pose *pose, int index, const double *qd, const double *qdd,
-                      link_motion *all) {
+static void move_link(const ambulo__pose *pose, int index, const double *q, const double *qd,
+                      const double *qdd, link_motion *all) {
   static const link_motion world = {{0.0}, {0.0}, {0.0}};
   const double origin[3] = {0.0, 0.0, 0.0}, along[3] = {0.0, 0.0, 1.0};
   const ambulo_link *link = &pose->model->links[index];
   const link_motion *parent = link->parent < 0 ? &world : &all[link->parent];
   link_motion *m = &all[index];
-  double from[3], end[3], at[3], z[3], r[3];
+  double from[3], end[3], at[3], z[3], r[3], f[AMBULO__COUPLING_SLOPES];
+  (void)ambulo__joint_value(pose->model, index, q, f);
+  const int c = ambulo__moved_by(pose->model, index);
+  const double speed = c < 0 ? 0.0 : qd[c], rate = f[0] * speed;
+  const double gain = c < 0 ? 0.0 : f[0] * qdd[c] + f[1] * speed * speed;
   ambulo__pose_point(pose, link->parent, origin, from);
   ambulo__pose_point(pose, link->parent, along, end);
   ambulo__pose_point(pose, index, origin, at);
@@ -54,26 +58,26 @@ static void move_link(const ambulo__pose *pose, int index, const double *qd, con
   }
   *m = *parent;
   if (link->type == AMBULO_REVOLUTE) {
-    add(m->w, qd[link->coordinate], z);
-    add(m->wd, qdd[link->coordinate], z);
-    ambulo__add_cross(parent->w, z, qd[link->coordinate], m->wd);
+    add(m->w, rate, z);
+    add(m->wd, gain, z);
+    ambulo__add_cross(parent->w, z, rate, m->wd);
   }
   add_turning(m, r, m->a);
   if (link->type == AMBULO_PRISMATIC) {
-    add(m->a, qdd[link->coordinate], z);
-    ambulo__add_cross(parent->w, z, 2.0 * qd[link->coordinate], m->a);
+    add(m->a, gain, z);
+    ambulo__add_cross(parent->w, z, 2.0 * rate, m->a);
   }
 }
 
 /* m (a - g) of each link's own body, world */
-static void inertial(const ambulo__pose *pose, const double *qd, const double *qdd,
+static void inertial(const ambulo__pose *pose, const double *q, const double *qd, const double *qdd,
                      link_motion *all, double *forces) {
   const ambulo_model *model = pose->model;
   for (int i = 0; i < model->link_count; i++) {
     const ambulo_link *link = &model->links[i];
     const double origin[3] = {0.0, 0.0, 0.0};
     double at[3], center[3], r[3], a[3];
-    move_link(pose, i, qd, qdd, all);
+    move_link(pose, i, q, qd, qdd, all);
     ambulo__pose_point(pose, i, origin, at);
     ambulo__pose_point(pose, i, link->com, center);
     for (int k = 0; k < 3; k++) r[k] = center[k] - at[k];
@@ -156,7 +160,7 @@ ambulo_status ambulo__joint_contact(const ambulo_muscles *muscles, const ambulo_
   for (int k = 0; k < motion->rows && !status; k++) {
     size_t at = (size_t)k * d;
     ambulo__pose_at(&pose, motion->q + at);
-    inertial(&pose, motion->qd + at, motion->qdd + at, all, forces);
+    inertial(&pose, motion->q + at, motion->qd + at, motion->qdd + at, all, forces);
     for (int c = 0; c < count; c++) {
       double *out = contact + 3 * ((size_t)k * (size_t)count + (size_t)c);
       cut_force(&pose, &cuts[c], forces, motion, k, out);

@@ -72,11 +72,14 @@ double ambulo__load_share(const ambulo_model *model, const double *frames, int l
   return ambulo__dot(axis, about);
 }
 
-void ambulo__load_take(const ambulo_model *model, const double *frames, int link,
+void ambulo__load_take(const ambulo_model *model, const double *frames, int link, const double *q,
                        const double force[3], const double moment[3], double *tau) {
   for (; link >= 0; link = model->links[link].parent) {
-    int i = model->links[link].coordinate;
-    if (i >= 0) tau[i] -= ambulo__load_share(model, frames, link, force, moment);
+    double slope[AMBULO__COUPLING_SLOPES];
+    int i = ambulo__moved_by(model, link);
+    if (i < 0) continue;
+    (void)ambulo__joint_value(model, link, q, slope);
+    tau[i] -= slope[0] * ambulo__load_share(model, frames, link, force, moment);
   }
 }
 
@@ -91,8 +94,8 @@ ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const a
     for (int foot = 0; foot < load->feet; foot++) {
       size_t at = 3 * ((size_t)k * (size_t)load->feet + (size_t)foot);
       int link = model->points[model->feet[foot].heel[0]].link;
-      ambulo__load_take(model, pose.frames, link, load->force + at, load->moment + at,
-                        tau + (size_t)k * d);
+      ambulo__load_take(model, pose.frames, link, q + (size_t)k * d, load->force + at,
+                        load->moment + at, tau + (size_t)k * d);
     }
   }
   ambulo__pose_free(&pose);

@@ -31,8 +31,8 @@ INTERNAL = {
     "ambulo_sharing_outputs", "ambulo_muscle_values",
 }
 
-# Arrays of doubles that come without a count: their shapes. d: coordinates; devices, nodes, knots:
-# of the problem; a field of the same record by its name.
+# Arrays of doubles that come without a count: their shapes. d: coordinates; feet: of the model;
+# devices, nodes, knots: of the problem; marks: of the same term; a field of the same record by its name.
 SHAPES = {
     ("ambulo_term", "scale"): ("d",),
     ("ambulo_term", "offset"): ("d",),
@@ -42,6 +42,10 @@ SHAPES = {
     ("ambulo_term", "tendon"): ("d",),
     ("ambulo_term", "device_scale"): ("devices",),
     ("ambulo_term", "reference"): ("nodes", "d"),
+    ("ambulo_term", "mark_scale"): ("marks",),
+    ("ambulo_term", "mark_reference"): ("nodes", "marks", 3),
+    ("ambulo_term", "foot_scale"): ("feet",),
+    ("ambulo_term", "foot_reference"): ("nodes", "feet", 3),
     ("ambulo_tube", "reference"): ("samples", "d"),
     ("ambulo_tube", "half_width"): ("d",),
     ("ambulo_problem_definition", "node_times"): ("nodes",),
@@ -55,6 +59,7 @@ OWN = {
     ("ambulo_parameters", "start"), ("ambulo_report_options", "sensitivities"),
     ("ambulo_report_options", "muscles"),
     ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
+    ("ambulo_film_options", "progress"),
     ("ambulo_export_options", "inverse"), ("ambulo_export_options", "problem"),
 }
 
@@ -63,7 +68,7 @@ NAMED = {
     "coordinate": "coordinate", "link": "link", "load_link": "link", "parent": "link",
     "point": "point", "about": "point", "heel": "point", "toe": "point", "heel_center": "point",
     "toe_center": "point", "tip": "point", "arc": "point", "foot": "foot", "first_foot": "foot",
-    "patch": "patch", "hand": "point", "one": "capsule", "other": "capsule", "capsules": "capsule",
+    "patch": "patch", "hand": "point", "marks": "point", "one": "capsule", "other": "capsule", "capsules": "capsule",
 }
 MIRRORED = {
     "ambulo_coordinate": "coordinate", "ambulo_foot": "foot", "ambulo_patch": "patch",

@@ -100,6 +100,7 @@ ambulo_status ambulo__gait_people_create(const ambulo__stride *stride, const amb
                                          ambulo__gait_people *gait) {
   ambulo__gait_people g = {.allocator = ambulo__allocator_or_default(allocator), .stride = stride};
   ambulo_status status = AMBULO_OK;
+  ambulo__body_joints(stride->model, g.joints);
   if (repeats(stride->problem)) {
     status = find_strikes(&g);
     if (ambulo__gait_cycles(&g) && ambulo__gait_is_walk(stride->problem)) g.people = people;
@@ -138,18 +139,22 @@ static int reads(const char *pattern, ambulo__side side, const char *const part[
   return *at == '\0';
 }
 
+/* `joint`: whose curve it is, in the body's words in `part`; NULL: no joint of a person */
 static ambulo__people_curve find(const ambulo__gait_people *g, ambulo__side side,
-                                 const char *const part[3]) {
+                                 const char *const part[3], const ambulo__body_joint *joint) {
+  const char *const own[3] = {part[0], joint ? joint->name : part[1], part[2]};
+  int turned = joint && joint->sign < 0 && strcmp(part[0], "power") != 0;
   ambulo__people_curve found = {.curve = NULL, .of = g, .side = side};
   for (int f = 0; g->people && side != AMBULO__MIDDLE && f < g->people->count; f++) {
     const ambulo__reference *reference = &g->people->files[f].reference;
     for (int i = 0; !found.curve && i < reference->count; i++) {
       const ambulo__map_entry *entry = reference->curves[i].entry;
-      if (!reads(entry->result, side, part)) continue;
+      if (!reads(entry->result, side, entry->by_body ? own : part)) continue;
       found.curve = &reference->curves[i];
       found.file = f;
       found.scale = 1.0 / entry->factor;
       if (entry->opposite && side == AMBULO__RIGHT) found.scale = -found.scale;
+      if (entry->by_body && turned) found.scale = -found.scale;
       if (entry->tilted) found.shift = degrees * ambulo_compare_options_default().pelvic_tilt;
     }
   }
@@ -160,7 +165,10 @@ ambulo__people_curve ambulo__people_coordinate(const ambulo__gait_people *g, con
                                                int coordinate) {
   const ambulo_model *model = g->stride->model;
   const char *const part[3] = {quantity, model->coordinates[coordinate].name, NULL};
-  ambulo__people_curve found = find(g, ambulo__coordinate_side(model, coordinate), part);
+  const ambulo__body_joint *joint = NULL;
+  for (int i = 0; i < AMBULO__BODY_JOINTS && !joint; i++)
+    if (g->joints[i].coordinate == coordinate) joint = &g->joints[i];
+  ambulo__people_curve found = find(g, ambulo__coordinate_side(model, coordinate), part, joint);
   if (!found.curve || found.curve->entry->unit == AMBULO__UNIT_ANGLE) return found;
   if (!g->per_kg) found.scale *= ambulo__gait_mass(model);
   if (g->stride->feet == 0) found.curve = NULL;
@@ -171,7 +179,7 @@ ambulo__people_curve ambulo__people_force(const ambulo__gait_people *g, const ch
                                           ambulo__side side) {
   const ambulo_model *model = g->stride->model;
   const char *const part[3] = {"grf", side_word[side], direction};
-  ambulo__people_curve found = find(g, side, part);
+  ambulo__people_curve found = find(g, side, part, NULL);
   if (!g->per_kg) found.scale /= sqrt(ambulo__dot(model->gravity, model->gravity));
   return found;
 }

@@ -27,7 +27,8 @@ typedef struct ambulo__gait_people {
   double *strikes[3];              /* by ambulo__side, rising, s, in the motion as it is shown */
   int count[3];                    /* 0 for the middle */
   int shown[AMBULO__PEOPLE_FILES]; /* curves that were drawn, by their file */
-  int per_kg;                      /* 1: moments and powers per kg, forces in N/kg */
+  ambulo__body_joint joints[AMBULO__BODY_JOINTS]; /* of the model, as people call them */
+  int per_kg;                                     /* 1: moments and powers per kg, forces in N/kg */
 } ambulo__gait_people;
 
 /* One curve of people beside one of the motion. */

@@ -3,7 +3,8 @@
  * Reading order: report.h, report.c. Numbers: summary_json.h, summary_json.c, summary_parts.c.
  * Pictures: svg.h, skeleton.h, gait_svg.h, gait_svg.c, gait_strip.c, gait_surroundings.h,
  * gait_people.h, gait_chart.h, gait_curves.c, picture.h. Space: scene.h, scene_body.c,
- * scene_surroundings.c, scene.c. The page: page.h, page_data.c, page.c.
+ * scene_surroundings.c, scene.c. The page: page.h, page_data.c, page.c. Films:
+ * canvas.h, film_scene.h, film_draw.c, film.c.
  */
 #include "show/report.h"
 

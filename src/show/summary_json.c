@@ -10,9 +10,11 @@
 #include "formats/inputs.h"
 #include "base/arithmetic.h"
 #include "formats/json_text.h"
+#include "people/body_joints.h"
 #include "people/stride.h"
 
 #include <math.h>
+#include <string.h>
 
 static void objective(ambulo__json *json, const ambulo_problem *problem,
                       const ambulo_result *result) {
@@ -237,6 +239,25 @@ static void vector(ambulo__json *json, const char *key, const double value[3]) {
   ambulo__json_close(json, ']');
 }
 
+/* those that the body calls or counts otherwise than people do */
+static void joints(ambulo__json *json, const ambulo_model *model) {
+  ambulo__body_joint list[AMBULO__BODY_JOINTS];
+  int any = 0;
+  ambulo__body_joints(model, list);
+  for (int i = 0; i < AMBULO__BODY_JOINTS; i++) {
+    if (list[i].coordinate < 0) continue;
+    const char *name = ambulo_model_coordinate(model, list[i].coordinate)->name;
+    if (list[i].sign > 0 && strcmp(name, list[i].name) == 0) continue;
+    if (!any) ambulo__json_open(json, "joints", '{');
+    any = 1;
+    ambulo__json_open(json, list[i].name, '{');
+    ambulo__json_text(json, "coordinate", name);
+    ambulo__json_integer(json, "sign", list[i].sign);
+    ambulo__json_close(json, '}');
+  }
+  if (any) ambulo__json_close(json, '}');
+}
+
 static void body(ambulo__json *json, const ambulo_model *model) {
   double size = -ambulo__dot(ambulo_model_gravity(model), ambulo_model_up(model));
   ambulo__json_open(json, "body", '{');
@@ -244,6 +265,7 @@ static void body(ambulo__json *json, const ambulo_model *model) {
   ambulo__json_number(json, "gravity", size);
   vector(json, "up", ambulo_model_up(model));
   vector(json, "forward", ambulo_model_forward(model));
+  joints(json, model);
   ambulo__json_close(json, '}');
 }
 

@@ -111,6 +111,8 @@ ambulo_status ambulo__record_take_result(const char *directory, const char *id,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics, ambulo__record *record,
                                          int *taken);
+/* 0: it ended without a result. */
+int ambulo__record_has_result(const ambulo__record *record);
 /* Whether it ran out of time or memory, and may have more now (0: no limit); or of memory without a
  * limit, which another run may find. */
 int ambulo__record_was_cut(const ambulo__record *record, double seconds, int megabytes);
@@ -185,6 +187,15 @@ int ambulo__queue_follower(ambulo__supervisor *batch, int index);
 int ambulo__queue_start_of(const ambulo__supervisor *batch, int index);
 /* Hash of the cases whose solutions lead to this start, one from another; 0: from zero. */
 unsigned long long ambulo__queue_origin(const ambulo__supervisor *batch, int index);
+
+/* --------------------------------------------------------------- batch_tally.c */
+
+/* A case is done: counts its state, and keeps what the first one without a result said. `log`: what
+ * its worker said; NULL: as it stands on disk. */
+void ambulo__tally_case(ambulo__supervisor *batch, int index, const ambulo__record *record,
+                        const char *log);
+/* The beginning of the line with a worker's first error; NULL: it has none. */
+const char *ambulo__first_error(const char *log);
 
 /* -------------------------------------------------------------- batch_worker.c */
 

@@ -109,9 +109,8 @@ static ambulo_status take_record(ambulo__supervisor *batch, int k) {
   batch->of[k].state = AMBULO__CASE_DONE;
   batch->of[k].solved = (unsigned char)record.valid;
   batch->of[k].origin = record.origin;
-  batch->progress.done++;
   batch->progress.resumed++;
-  batch->progress.failed += !record.valid;
+  ambulo__tally_case(batch, k, &record, NULL);
   return AMBULO_OK;
 }
 

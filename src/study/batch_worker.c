@@ -231,12 +231,8 @@ static int from_outside(int number) {
 /* the first error of what the worker said, with its file, in the message */
 static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id, const char *text) {
   if (batch->status) return batch->status; /* said once */
-  const char *error = strstr(text, "error["), *file = text, *said = "";
-  if (error && strstr(error, "]: ")) said = strstr(error, "]: ") + 3;
-  for (const char *line = text; error && line && line < error; line = strchr(line, '\n')) {
-    line += *line == '\n';
-    file = line;
-  }
+  const char *file = ambulo__first_error(text), *error = file ? strstr(file, "error[") : NULL;
+  const char *said = error && strstr(error, "]: ") ? strstr(error, "]: ") + 3 : "";
   int named = said[0] ? (int)(error - file) : 0;
   if (!said[0]) said = text[0] ? text : "its worker ended without a message";
   ambulo__place place = {batch->directory, 0, 0, NULL};
@@ -291,7 +287,8 @@ static ambulo_status write_log(const ambulo__supervisor *batch, const ambulo__sl
   return status;
 }
 
-static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__record *record) {
+static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__record *record,
+                          const char *log) {
   const ambulo__sweep_case *one = &batch->sweep->cases[index];
   ambulo__text_buffer inputs;
   ambulo__text_init(&inputs, batch->allocator);
@@ -306,8 +303,7 @@ static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__re
   batch->of[index].solved = (unsigned char)record->valid;
   batch->of[index].origin = record->origin;
   batch->finished_now++;
-  p->done++;
-  p->failed += !record->valid;
+  ambulo__tally_case(batch, index, record, log);
   p->last = one->name;
   (void)snprintf(p->last_state, sizeof p->last_state, "%s", record->state);
   if (record->violation >= 0.0 && !(record->violation <= p->worst_violation)) {
@@ -358,7 +354,7 @@ ambulo_status ambulo__worker_end(ambulo__supervisor *batch, ambulo__slot *slot, 
                                         &record, &taken);
   if (status) return status;
   if (judge(slot, wait_status, taken, &record) == RECORDED)
-    return keep(batch, slot->index, &record);
+    return keep(batch, slot->index, &record, ambulo__text_data(&slot->log.text));
   if (slot->cut == 0 && ++batch->of[slot->index].attempts == MOST_ATTEMPTS)
     give_up(batch, slot->index);
   return AMBULO_OK;

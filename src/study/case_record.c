@@ -202,8 +202,7 @@ static int read_fields(const ambulo__yaml_node *root, const char *id, ambulo__re
   r->violation = ambulo__yaml_number(ambulo__yaml_require(root, "violation"), -1.0);
   ambulo__yaml_expect(root, "inputs"); /* for people: the key stands for them */
   if (!read_files(ambulo__yaml_require(root, "files"), id, &r->files)) return 0;
-  int result = ambulo__case_files_have(&r->files, summary_file);
-  return r->valid == is_valid_state(r->state) && (result || !r->valid);
+  return r->valid == is_valid_state(r->state) && (ambulo__record_has_result(r) || !r->valid);
 }
 
 /* the text of a record, judged; *what: where it is damaged */
@@ -358,6 +357,10 @@ ambulo_status ambulo__record_take_result(const char *directory, const char *id,
   status = path ? take_summary(path, a, diagnostics, record, taken) : AMBULO_E_MEMORY;
   ambulo__free(a, path);
   return status;
+}
+
+int ambulo__record_has_result(const ambulo__record *r) {
+  return ambulo__case_files_have(&r->files, summary_file);
 }
 
 int ambulo__record_was_cut(const ambulo__record *r, double seconds, int megabytes) {

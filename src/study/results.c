@@ -77,6 +77,7 @@ static const char *count(reader *r, ambulo__finding finding) {
   if (finding == AMBULO__FOUND_DAMAGED) return "corrupt";
   census->done++;
   census->failed += !r->record.valid;
+  census->no_result += !ambulo__record_has_result(&r->record);
   census->seconds += r->record.seconds;
   return r->record.state;
 }

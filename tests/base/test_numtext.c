@@ -234,6 +234,13 @@ static void edges(void **state) {
   }
 }
 
+static void two_numbers_are_told_apart(void **state) {
+  (void)state;
+  assert_int_equal(ambulo__digits_apart(3.0, 4.0), 6);
+  assert_int_equal(ambulo__digits_apart(3.0, 3.0), 6);
+  assert_int_equal(ambulo__digits_apart(3.2475, 3.24750001), 9);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(any_double_survives),
                                      cmocka_unit_test(shortest_text),
@@ -243,6 +250,7 @@ int main(void) {
                                      cmocka_unit_test(whole_numbers),
                                      cmocka_unit_test(a_comma_locale_changes_nothing),
                                      cmocka_unit_test(numbers_are_those_of_printf),
-                                     cmocka_unit_test(edges)};
+                                     cmocka_unit_test(edges),
+                                     cmocka_unit_test(two_numbers_are_told_apart)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

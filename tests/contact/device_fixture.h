@@ -50,6 +50,7 @@ static inline void random_device(random_source *source, const ambulo_model *m,
 static inline void device_case_open(device_case *c, int index) {
   random_source source = {4000 + (uint64_t)index};
   random_tree_make(&c->tree, 91 * (uint64_t)index + 3, 1 + index % (most_coordinates - 2));
+  if (index % 4 == 1) random_tree_couple(&c->tree, (uint64_t)index);
   assert_int_equal(ambulo_model_create(&c->tree.definition, NULL, NULL, &c->model), AMBULO_OK);
   c->d = c->model->coordinate_count;
   c->n = 1 + random_below(&source, most_devices);
@@ -78,6 +79,22 @@ static inline void device_case_close(device_case *c) {
 
 /* ---------------------------------------------------------------- reference */
 
+/* where the joint of a link stands, and its derivative by the coordinate that moves it */
+static inline number reference_value(const ambulo_model *m, int link, const number *q,
+                                     number *slope) {
+  const ambulo_link *of = &m->links[link];
+  *slope = of->coordinate >= 0;
+  if (of->coordinate >= 0) return q[of->coordinate];
+  if (of->coupled_to < 0) return 0;
+  number x = q[of->coupled_to], sum = 0;
+  const ambulo__piece *piece = ambulo__coupling_piece(&m->couplings[link], creal(x));
+  for (int i = AMBULO__COUPLING_TERMS - 1; i >= 0; i--) {
+    *slope = *slope * (x - piece->at) + sum;
+    sum = sum * (x - piece->at) + piece->c[i];
+  }
+  return sum;
+}
+
 /* rows of the 3 x 4 frame of a link, and in front of its joint */
 static inline void reference_frame(const ambulo_model *m, int link, const number *q, int before,
                                    number frame[12]) {
@@ -88,7 +105,7 @@ static inline void reference_frame(const ambulo_model *m, int link, const number
   }
   const ambulo_link *of = &m->links[link];
   reference_frame(m, of->parent, q, 0, above);
-  number move = of->coordinate >= 0 && !before ? q[of->coordinate] : 0;
+  number slope, move = before ? 0 : reference_value(m, link, q, &slope);
   number theta = of->theta + (of->type == AMBULO_REVOLUTE ? move : 0);
   number along = of->d + (of->type == AMBULO_PRISMATIC ? move : 0);
   number ct = ccos(theta), st = csin(theta), ca = cos(of->alpha), sa = sin(of->alpha);
@@ -121,8 +138,10 @@ static inline void reference_slopes(const ambulo_model *m, int link, const numbe
                                     const number *q, const number u[3], double factor,
                                     number *slope) {
   for (; link >= 0; link = m->links[link].parent) {
-    number f[12], arm[3], turned[3], sum = 0;
-    if (m->links[link].coordinate < 0) continue;
+    number f[12], arm[3], turned[3], sum = 0, by;
+    const int coordinate = ambulo__moved_by(m, link);
+    if (coordinate < 0) continue;
+    (void)reference_value(m, link, q, &by);
     reference_frame(m, link, q, 1, f);
     const number z[3] = {f[2], f[6], f[10]};
     for (int k = 0; k < 3; k++) arm[k] = p[k] - f[4 * k + 3];
@@ -132,7 +151,7 @@ static inline void reference_slopes(const ambulo_model *m, int link, const numbe
     }
     for (int k = 0; k < 3; k++)
       sum += u[k] * (m->links[link].type == AMBULO_REVOLUTE ? turned[k] : z[k]);
-    slope[m->links[link].coordinate] += factor * sum;
+    slope[coordinate] += factor * by * sum;
   }
 }
 

@@ -37,6 +37,42 @@ static void what_is_read(void **state) {
   model_shut(&c);
 }
 
+/* rotors by the units of bodies, the rest by those of torques; of sliders too */
+static void drives(void **state) {
+  (void)state;
+  static const char *const units[] = {
+      "angle: degrees", "angle: degrees, length: stature, mass: body_mass, torque: weight_stature"};
+  for (int shares = 0; shares < 2; shares++) {
+    const double m = shares ? 70 : 1, h = shares ? 1.75 : 1, f = shares ? m * 9.81 : 1;
+    char text[900];
+    (void)snprintf(text, sizeof text,
+                   "ambulo: 1\nname: t\nunits: {%s}\nsubject: {mass: 70, stature: 1.75}\n"
+                   "links:\n"
+                   "  - {name: a, parent: none, joint: revolute, dh: [0, 0, 0, 0], " MODEL_BODY
+                   ",\n"
+                   "     coordinate: {armature: 0.5, damping: 0.25, friction: 2}}\n"
+                   "  - {name: b, parent: a, joint: prismatic, dh: [0, 0, 0, 0], " MODEL_BODY ",\n"
+                   "     coordinate: {armature: 3, damping: 4, friction: 5}}\n"
+                   "  - {name: c, parent: b, joint: revolute, dh: [0, 0, 0, 0], " MODEL_BODY "}\n",
+                   units[shares]);
+    model_case c = model_good(text);
+    const ambulo_coordinate *a = ambulo_model_coordinate(c.model, 0);
+    const ambulo_coordinate *b = ambulo_model_coordinate(c.model, 1);
+    assert_close(a->armature, 0.5 * m * h * h, 1e-12);
+    assert_close(a->damping, 0.25 * f * h, 1e-12);
+    assert_close(a->friction, 2 * f * h, 1e-12);
+    assert_close(b->armature, 3 * m, 1e-12);
+    assert_close(b->damping, 4 * f / h, 1e-12);
+    assert_close(b->friction, 5 * f, 1e-12);
+    assert_close(ambulo_model_coordinate(c.model, 2)->armature, 0, 0);
+    model_shut(&c);
+  }
+  model_bad(MODEL_HEAD ROOT LINK("hip", "base", ",\n     coordinate: {armature: -1}"),
+            AMBULO_E_MODEL,
+            "t.yaml:7:18: error[E_MODEL]: armature of coordinate 'hip' is out of range (got -1 kg "
+            "m^2); expected 0 to 1e12");
+}
+
 static void pairs(void **state) {
   (void)state;
   model_case c = model_good(MODEL_HEAD ROOT LINK("l", "base", ", coordinate: {mirror: r}")
@@ -192,6 +228,7 @@ static void faults(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read),
+                                     cmocka_unit_test(drives),
                                      cmocka_unit_test(pairs),
                                      cmocka_unit_test(any_order),
                                      cmocka_unit_test(broken_trees),

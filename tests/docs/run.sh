@@ -13,7 +13,7 @@
 # script, without those that begin with "# needs MODULE, ..." where a module is missing, and none
 # where Python 3 has no cffi and numpy. exceptions.txt tells what is not run and
 # why; a block or a line that is neither run nor told there fails, and so does an exception that fits
-# nothing. sbatch and parallel are stand-ins (stand_ins/), and rsvg-convert where it is missing; make
+# nothing. sbatch and parallel are stand-ins (stand_ins/), and rsvg-convert and ffmpeg where they are missing; make
 # check-slurm has the real ones of the former.
 #
 # Prints "N passed, N failed". Environment: OUT (build folder), CC, CFLAGS, LDFLAGS, MODE as in

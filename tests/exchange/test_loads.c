@@ -232,7 +232,7 @@ static void generalized(device_case *c, const ambulo_device *device, double effo
       sum[3 + i] += moment[i];
     }
     if (body >= 0)
-      ambulo__load_take(b->model, c->pose->frames, b->list[body].link, f, moment, c->force);
+      ambulo__load_take(b->model, c->pose->frames, b->list[body].link, c->q, f, moment, c->force);
   }
   for (int i = 0; i < 6; i++) assert_close(sum[i], 0.0, 1e-7 * fabs(effort));
 }

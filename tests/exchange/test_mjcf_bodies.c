@@ -1,23 +1,36 @@
 /* MuJoCo: every joint, geom and way to write a rotation, with torques that MuJoCo 4.0 computed (its
- * free joint as three sliders and three hinges, its ball as three hinges, no armature). */
+ * free joint as three sliders and three hinges, its ball as three hinges with its armature, damping
+ * and friction each; friction smoothed as here). */
 #include "support/import_case.h"
 
 #define BODY "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>"
 #define MODEL(inner) "<mujoco>\n<worldbody>\n" inner "</worldbody>\n</mujoco>\n"
 #define HINGE(more) MODEL("<body name='b'>" BODY "\n<joint name='j' " more "/></body>")
 
+/* joints that are polynomials of others, about references; one that is off is none */
+static void functions_as_mujoco(void **state) {
+  (void)state;
+  static const double want[] = {5.24822137132024, 1.61252934878532};
+  import_case c = import_file("tests/exchange/coupled_joints.xml", NULL);
+  assert_int_equal(c.status, AMBULO_OK);
+  assert_torques(c.model, want, 2, 1e-12);
+  assert_told(&c, "1 of <equality> are left out");
+  import_shut(&c);
+}
+
 static void as_mujoco(void **state) {
   (void)state;
   static const double want[] = {4.45988213124041,   -31.8283296199847,   312.697450895045,
-                                0.220177175497206,  -1.18480615309464,   -0.559814706082123,
-                                -1.56024206530848,  -1.55706798000415,   -4.4601435799732,
-                                0.0837613085895819, -0.0426606824499192, -0.000101709948273521,
-                                -1.97471096451852};
+                                0.220177175497207,  -1.18480615309464,   -0.559814706082123,
+                                -2.06276428004688,  -1.63142247074675,   -6.46912929903552,
+                                0.0932743194726421, 0.00710067021542821, 0.0619636955021647,
+                                -1.95461922403152};
   import_case c = import_file("tests/exchange/every_joint.xml", NULL);
   assert_int_equal(c.status, AMBULO_OK);
   assert_torques(c.model, want, 13, 1e-12);
-  assert_told(&c, "armature of 5 joints is left out");
-  assert_told(&c, "stiffness, damping and friction of 5 joints are left out");
+  assert_told(&c,
+              "armature, damping and friction of 1 ball joints are those of each of their three "
+              "hinges: MuJoCo's at 0");
   import_shut(&c);
 }
 
@@ -43,6 +56,46 @@ static void limits(void **state) {
   assert_close(named(&c, "swing")->torque[1], 60, 0);  /* 60 by control, 70 by the joint */
   assert_int_equal(named(&c, "root_tx")->actuated, 0);
   assert_int_equal(named(&c, "swing")->actuated, 1);
+  import_shut(&c);
+}
+
+static void expect_drive(const import_case *c, const char *name, double armature, double damping,
+                         double friction) {
+  assert_close(named(c, name)->armature, armature, 0);
+  assert_close(named(c, name)->damping, damping, 0);
+  assert_close(named(c, name)->friction, friction, 0);
+}
+
+/* by class and of their own; on three hinges of a ball; not on what moves a free body */
+static void drives(void **state) {
+  import_case c = import_good(
+      state,
+      "<mujoco><default><joint armature='0.5' stiffness='3'/><default class='arm'>"
+      "<joint damping='2' frictionloss='0.25'/></default></default><worldbody><body name='b'>" BODY
+      "<joint name='x' type='slide' damping='1'/><joint name='turn' armature='0'/>"
+      "<body name='c'>" BODY "<joint name='plain'/><body name='d' childclass='arm'>" BODY
+      "<joint name='arm'/><body name='e'>" BODY "<joint name='own' armature='4' damping='0 0 1' "
+      "stiffness='0'/><body name='f'>" BODY "<joint name='ball' type='ball' stiffness='0'/>"
+      "</body></body></body></body></body></worldbody></mujoco>");
+  expect_drive(&c, "x", 0, 0, 0);
+  expect_drive(&c, "turn", 0, 0, 0);
+  expect_drive(&c, "plain", 0.5, 0, 0);
+  expect_drive(&c, "arm", 0.5, 2, 0.25);
+  expect_drive(&c, "own", 4, 0, 0.25);
+  expect_drive(&c, "ball_x", 0.5, 2, 0.25);
+  expect_drive(&c, "ball_z", 0.5, 2, 0.25);
+  assert_told(&c, "stiffness of 4 joints is left out");
+  assert_told(&c, "damping that grows faster than the speed of 1 joints is left out");
+  assert_told(&c, "armature, damping and friction of 1 joints of the free root are left out");
+  assert_told(&c, "armature, damping and friction of 1 ball joints are those of each");
+  import_shut(&c);
+  c = import_good(state, "<mujoco><default><joint armature='0.5'/></default><worldbody>"
+                         "<body name='b'>" BODY "<joint name='r' type='free'/><body name='c'>" BODY
+                         "<joint name='j'/></body></body></worldbody></mujoco>");
+  expect_drive(&c, "r_tx", 0, 0, 0);
+  expect_drive(&c, "j", 0.5, 0, 0);
+  assert_told(&c, "armature, damping and friction of 1 joints of the free root are left out: no "
+                  "drive is there to have them");
   import_shut(&c);
 }
 
@@ -127,6 +180,8 @@ static void what_is_wrong(void **state) {
       {HINGE("axis='0 0 0'"), AMBULO_E_MODEL, "the axis of joint 'j' has no direction"},
       {HINGE("range='10 -10'"), AMBULO_E_MODEL,
        "the range of 'j' contradicts itself (got 10 to -10)"},
+      {HINGE("armature='-1'"), AMBULO_E_MODEL,
+       "armature of 'j' is out of range (got -1); expected 0 to 1e9"},
       {HINGE("pos='0 0'"), AMBULO_E_SCHEMA, "pos of <joint> has 2 numbers; expected 3"},
       {HINGE("limited='maybe'"), AMBULO_E_SCHEMA, "unknown limited (got 'maybe')"},
       {MODEL("<body><joint/>\n<geom type='mesh' mesh='m'/></body>"), AMBULO_E_MODEL,
@@ -228,11 +283,17 @@ static void included_files(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(as_mujoco),      cmocka_unit_test(limits),
-      cmocka_unit_test(what_is_driven), cmocka_unit_test(solids),
-      cmocka_unit_test(settings),       cmocka_unit_test(what_is_as_good_as_none),
-      cmocka_unit_test(masses),         cmocka_unit_test(keyframes_that_are_short),
-      cmocka_unit_test(what_is_wrong),  cmocka_unit_test(included_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(as_mujoco),
+                                     cmocka_unit_test(drives),
+                                     cmocka_unit_test(functions_as_mujoco),
+                                     cmocka_unit_test(limits),
+                                     cmocka_unit_test(what_is_driven),
+                                     cmocka_unit_test(solids),
+                                     cmocka_unit_test(settings),
+                                     cmocka_unit_test(what_is_as_good_as_none),
+                                     cmocka_unit_test(masses),
+                                     cmocka_unit_test(keyframes_that_are_short),
+                                     cmocka_unit_test(what_is_wrong),
+                                     cmocka_unit_test(included_files)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

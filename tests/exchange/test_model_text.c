@@ -1,10 +1,15 @@
-/* Text for XML, and OpenSim's angles back to the rotation they are of. */
+/* Text for XML, OpenSim's angles back to the rotation they are of, and what becomes of drives. */
 #include "exchange/export.h"
 
-#include "exchange/rigid.h"
 #include "ambulo/tools/export.h"
+#include "base/diagnostics.h"
+#include "exchange/rigid.h"
+#include "model/model.h"
+#include "support/import_case.h"
+#include "support/messages.h"
 #include "support/random_model.h"
 #include "support/scratch.h"
+#include "support/still_walker.h"
 #include "support/test.h"
 
 static void entities(void **state) {
@@ -87,9 +92,42 @@ static void axes_that_are_made_up(void **state) {
   assert_true(checked > 100);
 }
 
+/* a URDF has what brakes, but no rotors; OpenSim's bodies none of it */
+static void drives(void **state) {
+  skip_without_expat();
+  const char *file = scratch_path(state, "m.urdf");
+  ambulo_model *model = walker();
+  ambulo_export_options o = ambulo_export_options_default();
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  o.format = AMBULO_EXPORT_URDF;
+  o.overwrite = 1;
+  ambulo_coordinate *knee =
+      &model->coordinates[ambulo_model_find_coordinate(model, "knee_angle_r")];
+  knee->armature = 0.25;
+  knee->damping = 0.5;
+  knee->friction = 2;
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, list), AMBULO_OK);
+  assert_message(list, 1, "armature of 1 coordinates is left out");
+  import_case back = import_file(file, NULL);
+  const ambulo_coordinate *c =
+      ambulo_model_coordinate(back.model, ambulo_model_find_coordinate(back.model, "knee_angle_r"));
+  assert_close(c->damping, 0.5, 0);
+  assert_close(c->friction, 2, 0);
+  assert_close(c->armature, 0, 0);
+  import_shut(&back);
+  ambulo__diagnostics_clear(list);
+  o.format = AMBULO_EXPORT_OPENSIM;
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, list), AMBULO_OK);
+  assert_message(list, 0, "armature, damping and friction of 1 coordinates are left out");
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(entities), cmocka_unit_test(angles),
+      cmocka_unit_test(entities),
+      cmocka_unit_test_setup_teardown(drives, scratch_open, scratch_close),
+      cmocka_unit_test(angles),
       cmocka_unit_test_setup_teardown(axes_that_are_made_up, scratch_open, scratch_close)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

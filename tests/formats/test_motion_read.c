@@ -142,6 +142,21 @@ static void faults_are_named_with_line_and_column(void **state) {
   }
 }
 
+/* what is too little is an error; what is too much is said, where the number stands */
+static void more_rows_than_announced_are_taken(void **state) {
+  (void)state;
+  static const char text[] = "t\nnRows=1\nendheader\ntime\tq\n0\t1\n1\t2\n";
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__motion *motion = NULL;
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "x.sto", AMBULO__MOTION_AUTO, NULL, list, &motion),
+      AMBULO_OK);
+  assert_int_equal(motion->rows, 2);
+  assert_message(list, 0, "x.sto:2:1: warning: 2 rows, where nRows says 1: all are taken");
+  ambulo__motion_free(motion);
+  ambulo_diagnostics_free(list);
+}
+
 /* OpenSim's tools repeat rows where their runs end */
 static void repeated_rows_are_left_out(void **state) {
   (void)state;
@@ -276,6 +291,7 @@ int main(void) {
       cmocka_unit_test(tables_are_read_in_every_dress),
       cmocka_unit_test(degrees_are_noticed),
       cmocka_unit_test(faults_are_named_with_line_and_column),
+      cmocka_unit_test(more_rows_than_announced_are_taken),
       cmocka_unit_test(repeated_rows_are_left_out),
       cmocka_unit_test(one_run_reports_all_faults),
       cmocka_unit_test(sizes_are_limited_and_nul_bytes_refused),

@@ -1,9 +1,11 @@
 /* tests/mechanics/kernel_fixture.h - random trees, states and the reference's derivatives.
  *
  * A case is a tree, its plan, and one block of states in one of the pose regimes; from number
- * rooted_cases on, the tree stands on a chain of sliders along (mostly) world axes. The reference
- * gives the outputs of any lane, and their Jacobians by complex steps of 1e-40, which are as
- * accurate as the values themselves. Differences are relative to the largest entry of a group
+ * rooted_cases on, the tree stands on a chain of sliders along (mostly) world axes; from number
+ * coupled_cases on, some joints of one or the other kind are functions of coordinates. One in three
+ * has drives. The reference gives the outputs of any lane, and their Jacobians by complex steps of
+ * 1e-40, which are as accurate as the values themselves. Differences are relative to the largest
+ * entry of a group
  * (tau and wrench; points). */
 #ifndef TESTS_MECHANICS_KERNEL_FIXTURE_H
 #define TESTS_MECHANICS_KERNEL_FIXTURE_H
@@ -16,7 +18,8 @@
 
 enum {
   rooted_cases = 240,
-  case_count = 340,
+  coupled_cases = 340,
+  case_count = 460,
   max_d = 64,
   max_rows = max_d + 6 + 3 * random_max_points
 };
@@ -49,12 +52,14 @@ static inline double *zero_lane_array(size_t count) {
 static inline void case_open(kernel_case *c, int number) {
   random_source source = {1000 + (uint64_t)number};
   c->number = number;
-  if (number < rooted_cases) {
+  if (number < rooted_cases || (number >= coupled_cases && number % 3 == 0)) {
     random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 60);
   } else {
     random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 20);
     random_tree_put_on_root(&c->tree, 31 * (uint64_t)number + 2);
   }
+  if (number % 3 == 0) random_tree_drive(&c->tree, 7 * (uint64_t)number + 3);
+  if (number >= coupled_cases) random_tree_couple(&c->tree, 19 * (uint64_t)number + 3);
   c->model = NULL;
   c->plan = NULL;
   assert_int_equal(ambulo_model_create(&c->tree.definition, NULL, NULL, &c->model), AMBULO_OK);

@@ -66,7 +66,7 @@ static double sum_of(const contact_case *c, int lane, double force[3], double mo
 /* Every case in every instruction set. */
 static void with_every_case(void (*check)(contact_case *, const ambulo__kernels *)) {
   static contact_case c;
-  for (int number = -shipped_contact_count; number < contact_case_count; number++) {
+  for (int number = -shipped_contact_count; number < contact_coupled_cases; number++) {
     contact_case_open(&c, number);
     for (int i = 0; i < isa_count; i++) {
       const ambulo__kernels *kernels = ambulo__kernels_by_name(isa_names[i]);
@@ -208,7 +208,7 @@ static void a_wrench_goes_with_its_weight(void **state) {
   (void)state;
   static contact_case c;
   const ambulo__kernels *kernels = ambulo__kernels_select();
-  for (int number = 1; number < contact_case_count; number += 6) {
+  for (int number = 1; number < contact_coupled_cases; number += 6) {
     double force[3], moment[3], last[3] = {0}, turn[3] = {0}, first = 0;
     contact_case_open(&c, number);
     assert_int_equal(c.contacts.count, 2);

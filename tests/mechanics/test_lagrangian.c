@@ -26,6 +26,7 @@ static void rig_build(rig *r) {
 static void rig_open(rig *r, int number, int coordinates) {
   r->source.state = (uint64_t)number;
   random_tree_make(&r->tree, 31 * (uint64_t)number + 2, coordinates);
+  if (number % 3 == 2) random_tree_couple(&r->tree, (uint64_t)number);
   rig_build(r);
 }
 
@@ -147,6 +148,7 @@ static void rig_open_massive(rig *r, int number) {
   for (int i = 0; i < r->tree.definition.link_count; i++) {
     if (r->tree.links[i].mass == 0) random_body(&r->source, &r->tree.links[i]);
   }
+  if (number % 3 == 2) random_tree_couple(&r->tree, (uint64_t)number);
   rig_build(r);
 }
 

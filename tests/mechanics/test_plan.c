@@ -159,7 +159,8 @@ static void pattern_is_well_formed(void **state) {
       }
       assert_true(part[0].factor == 1);
       for (int j = 0; j < c.d && i < c.d; j++) {
-        assert_true(dense[i][j] == dense[j][i] || p.start[j] == p.start[j + 1]);
+        assert_true(dense[i][j] == dense[j][i] || p.start[j] == p.start[j + 1] ||
+                    number >= coupled_cases);
       }
       assert_true(i >= c.d || dense[i][i]);
     }
@@ -229,8 +230,8 @@ static void root_sliders_are_rows_of_the_force(void **state) {
 static void rooted_trees_are_of_all_kinds(void **state) {
   (void)state;
   static kernel_case c;
-  int followers[3][2] = {{0}}, oblique = 0, light = 0, behind = 0;
-  for (int number = rooted_cases; number < case_count; number++) {
+  int followers[3][2] = {{0}}, driven = 0, oblique = 0, light = 0, behind = 0;
+  for (int number = rooted_cases; number < coupled_cases; number++) {
     case_open(&c, number);
     for (int k = 0; k < c.d; k++) {
       const ambulo__joint *joint = &c.plan->joints[k];
@@ -240,6 +241,8 @@ static void rooted_trees_are_of_all_kinds(void **state) {
       if (joint->revolute || !joint->still) continue;
       if (part[0].row != k) {
         followers[part[0].row - c.d - 3][part[0].factor < 0]++;
+      } else if (joint->driven && !joint->turned && parent < 0) {
+        driven++;
       } else if (joint->turned) {
         oblique++;
       } else if (c.plan->frames[k + 1].subtree_mass < (1 - 1e-9) * c.plan->frames[0].subtree_mass) {
@@ -251,7 +254,42 @@ static void rooted_trees_are_of_all_kinds(void **state) {
     case_close(&c);
   }
   for (int i = 0; i < 6; i++) assert_true(followers[i / 2][i % 2] > 4);
-  assert_true(oblique > 5 && light > 5 && behind > 1);
+  assert_true(driven > 5 && oblique > 5 && light > 5 && behind > 1);
+}
+
+/* a cart has a drive; on contacts, which carry it, it cannot */
+static void what_contacts_carry_is_undriven(void **state) {
+  (void)state;
+  ambulo_link links[] = {named_link("cart", -1, AMBULO_PRISMATIC, 0, 0, 0, 0),
+                         named_link("pole", 0, AMBULO_REVOLUTE, 0, 0, 0, 0)};
+  ambulo_coordinate coordinates[] = {ambulo_coordinate_default(), ambulo_coordinate_default()};
+  ambulo_model_definition d = ambulo_model_definition_default();
+  const int foot = 1;
+  give_body(&links[0], 2, 0.1);
+  give_body(&links[1], 1, 0.1);
+  coordinates[0].name = "along";
+  coordinates[0].type = AMBULO_PRISMATIC;
+  coordinates[1].name = "turn";
+  coordinates[1].armature = 0.5;
+  d.name = "cart";
+  d.links = links;
+  d.coordinates = coordinates;
+  d.link_count = d.coordinate_count = 2;
+  for (int driven = 0; driven < 2; driven++) {
+    ambulo_model *model = NULL;
+    ambulo__plan *plan = NULL;
+    coordinates[0].damping = driven;
+    assert_int_equal(ambulo_model_create(&d, NULL, NULL, &model), AMBULO_OK);
+    assert_int_equal(ambulo__plan_create(model, NULL, &plan), AMBULO_OK);
+    assert_int_equal(ambulo__plan_undriven(plan), -1);
+    assert_int_equal(plan->drive_count, 1 + driven);
+    ambulo__plan_free(plan);
+    assert_int_equal(ambulo__plan_create_contacts(model, &foot, 1, 0.1, 1, NULL, &plan), AMBULO_OK);
+    assert_int_equal(ambulo__plan_undriven(plan), driven ? 0 : -1);
+    assert_int_equal(plan->drive_count, 1);
+    ambulo__plan_free(plan);
+    ambulo_model_free(model);
+  }
 }
 
 static void failed_allocations_unwind(void **state) {
@@ -280,6 +318,7 @@ int main(void) {
                                      cmocka_unit_test(pattern_is_well_formed),
                                      cmocka_unit_test(root_sliders_are_rows_of_the_force),
                                      cmocka_unit_test(rooted_trees_are_of_all_kinds),
+                                     cmocka_unit_test(what_contacts_carry_is_undriven),
                                      cmocka_unit_test(failed_allocations_unwind)};
   return cmocka_run_group_tests_name("mechanics/plan", tests, NULL, NULL);
 }

@@ -90,7 +90,7 @@ static void joints_carry_what_acts_beyond_them(void **state) {
   (void)state;
   static contact_case c;
   int vanish = 0, several = 0, none = 0;
-  for (int number = -shipped_contact_count; number < contact_case_count; number++) {
+  for (int number = -shipped_contact_count; number < contact_coupled_cases; number++) {
     contact_case_open(&c, number);
     const ambulo_model *model = c.body.model;
     for (int l = 0; l < model->link_count; l++) {

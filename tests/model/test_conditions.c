@@ -167,13 +167,16 @@ static void expect_same_numbers(const double *got, const double *want, int count
 static void another_size_is_another_subject(void **state) {
   (void)state;
   static const char *const files[] = {"models/whole_body_29.yaml", "models/lower_body_18.yaml"};
+  static const char *const drive[] = {"links[shank_l].coordinate.armature=0.001",
+                                      "links[shank_l].coordinate.damping=0.01",
+                                      "links[shank_l].coordinate.friction=0.02"};
   for (int f = 0; f < 2; f++) {
     ambulo_model *model = NULL, *other = NULL;
     ambulo_subject subject = ambulo_subject_default();
-    assert_int_equal(ambulo_model_load(files[f], NULL, NULL, NULL, &model), 0);
+    assert_int_equal(ambulo_model_load_with(files[f], drive, 3, NULL, NULL, NULL, &model), 0);
     subject.mass = 1.25 * model->units.mass;
     subject.stature = 0.8 * model->stature;
-    assert_int_equal(ambulo_model_load(files[f], &subject, NULL, NULL, &other), 0);
+    assert_int_equal(ambulo_model_load_with(files[f], drive, 3, &subject, NULL, NULL, &other), 0);
     ambulo__model_resize(model, 1.25, 0.8);
     assert_close(model->mass, other->mass, 1e-13);
     assert_close(model->stature, other->stature, 1e-13);
@@ -186,6 +189,7 @@ static void another_size_is_another_subject(void **state) {
     for (int i = 0; i < model->coordinate_count; i++) {
       expect_same_numbers(model->coordinates[i].range, other->coordinates[i].range, 6);
       assert_close(model->coordinates[i].default_value, other->coordinates[i].default_value, 1e-13);
+      expect_same_numbers(&model->coordinates[i].armature, &other->coordinates[i].armature, 3);
     }
     for (int i = 0; i < model->point_count; i++)
       expect_same_numbers(model->points[i].position, other->points[i].position, 3);

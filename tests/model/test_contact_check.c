@@ -23,6 +23,42 @@ static void intervals(void **state) {
   chain_bad(&c, AMBULO_E_MODEL, "torque limits of coordinate 'qa'");
 }
 
+/* sliders on the world, the first of which moves everything */
+static void chain_slides(chain *c) {
+  chain_make(c);
+  for (int i = 0; i < 2; i++) c->links[i].type = AMBULO_PRISMATIC;
+  for (int i = 0; i < 2; i++) c->coordinates[i].actuated = 0;
+}
+
+static void drives(void **state) {
+  (void)state;
+  chain c;
+  chain_make(&c);
+  c.coordinates[1].armature = -0.5;
+  chain_bad(&c, AMBULO_E_MODEL,
+            "armature of coordinate 'qb' is out of range (got -0.5 kg m^2); expected 0 to 1e12");
+  c.coordinates[1].armature = NAN;
+  chain_bad(&c, AMBULO_E_MODEL, "armature of coordinate 'qb' is out of range (got nan kg m^2)");
+  c.coordinates[1].armature = 0.5;
+  c.coordinates[1].friction = INFINITY;
+  chain_bad(&c, AMBULO_E_MODEL, "friction of coordinate 'qb' is out of range (got inf N m)");
+  c.coordinates[1].friction = 2;
+  c.coordinates[0].damping = 1; /* an acrobat's bar, driven or not: hinged to the world */
+  ambulo_model_free(chain_good(&c));
+  c.coordinates[0].actuated = 0;
+  ambulo_model_free(chain_good(&c));
+  chain_slides(&c);
+  ambulo_model_free(chain_good(&c));
+  c.coordinates[0].damping = 3;
+  chain_bad(&c, AMBULO_E_MODEL,
+            "coordinate 'qa' moves the whole free body, and no joint is there to have damping (got "
+            "3 N s/m); expected 0");
+  c.coordinates[0].actuated = 1; /* a cart that is pushed */
+  ambulo_model_free(chain_good(&c));
+  c.coordinates[1].armature = 3; /* does not move the first link */
+  ambulo_model_free(chain_good(&c));
+}
+
 static void mirror_pairs(void **state) {
   (void)state;
   chain c;
@@ -173,13 +209,11 @@ static void patches_are_kept(void **state) {
 }
 
 static int test_contact_check_tests(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(intervals),
-                                     cmocka_unit_test(mirror_pairs),
-                                     cmocka_unit_test(unlike_pairs),
-                                     cmocka_unit_test(points),
-                                     cmocka_unit_test(feet),
-                                     cmocka_unit_test(patches),
-                                     cmocka_unit_test(patches_are_kept)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(intervals),    cmocka_unit_test(drives),
+      cmocka_unit_test(mirror_pairs), cmocka_unit_test(unlike_pairs),
+      cmocka_unit_test(points),       cmocka_unit_test(feet),
+      cmocka_unit_test(patches),      cmocka_unit_test(patches_are_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
 

@@ -62,6 +62,7 @@ static ambulo_model *random_model(uint64_t seed) {
   random_tree tree;
   ambulo_model *model = NULL;
   random_tree_make(&tree, seed, 6);
+  if (seed % 2) random_tree_couple(&tree, seed);
   assert_int_equal(ambulo_model_create(&tree.definition, NULL, NULL, &model), AMBULO_OK);
   return model;
 }

@@ -5,8 +5,8 @@
 #include "support/messages.h"
 #include "support/subject_motion.h"
 
-static const ambulo__map_entry hip = {"hip", "hip", "q.hip_flexion_{side}", 1,
-                                      0,     1,     AMBULO__UNIT_ANGLE,     0};
+static const ambulo__map_entry hip = {
+    "hip", "hip", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE, 0, 0};
 
 /* a hip that goes from 0 by `rise` degrees within each stride, more by `more` in each next one */
 static const char *steps(void **state, double more, double limp) {

@@ -3,8 +3,8 @@
 #include "support/gait_folder.h"
 #include "support/messages.h"
 
-static const ambulo__map_entry hip = {"hip", "hip", "q.hip_flexion_{side}", 1,
-                                      0,     0,     AMBULO__UNIT_ANGLE,     0};
+static const ambulo__map_entry hip = {
+    "hip", "hip", "q.hip_flexion_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE, 0, 0};
 
 static ambulo_status open_cycle(void **state, double strike, ambulo_diagnostics *list,
                                 ambulo__cycle *cycle) {

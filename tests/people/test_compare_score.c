@@ -5,7 +5,7 @@
 #include "support/messages.h"
 #include "support/test.h"
 
-static const ambulo__map_entry entry = {"c", "c", "q.c", 1, 0, 0, AMBULO__UNIT_ANGLE, 0};
+static const ambulo__map_entry entry = {"c", "c", "q.c", 1, 0, 0, AMBULO__UNIT_ANGLE, 0, 0};
 
 static void known_numbers(void **state) {
   (void)state;

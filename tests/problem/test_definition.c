@@ -213,6 +213,9 @@ static void the_hash_sees_the_model(void **state) {
     expect_seen(&w, "torque", &m->coordinates[1].torque[side], &number, sizeof number);
   }
   expect_seen(&w, "default", &m->coordinates[0].default_value, &number, sizeof number);
+  expect_seen(&w, "armature", &m->coordinates[0].armature, &number, sizeof number);
+  expect_seen(&w, "damping", &m->coordinates[0].damping, &number, sizeof number);
+  expect_seen(&w, "friction", &m->coordinates[1].friction, &number, sizeof number);
   close(&w);
 }
 

@@ -263,7 +263,7 @@ static void rows_of_the_table_are_whole(void **state) {
     for (int other = 1; other < k; other++)
       assert_string_not_equal(info->name, ambulo__term_info_of((ambulo_term_kind)other)->name);
   }
-  assert_int_equal(kinds, AMBULO_MUSCLE_EFFORT);
+  assert_int_equal(kinds, AMBULO_PRESSURE_TRACKING);
 }
 
 int main(void) {

@@ -34,6 +34,17 @@ class Models(Case):
             for a, b in zip(made.inverse_dynamics(*motion()), read.inverse_dynamics(*motion())):
                 self.close(a, b, 1e-14)
 
+    def test_drives_are_of_coordinates(self):
+        def driven(**drive):
+            links = [ambulo.Link("rod", type="revolute", a=1.0, mass=2.0, inertia=[0.1] * 3 + [0.0] * 3)]
+            return ambulo.Model.create(links, [ambulo.Coordinate("turn", "revolute", **drive)], [])
+
+        q, qd, qdd = numpy.array([[[0.3]], [[0.2]], [[-1.5]]])
+        with driven() as bare, driven(armature=0.25, damping=2.0, friction=3.0) as model:
+            self.assertEqual(model.coordinates[0].armature, 0.25)
+            added = 0.25 * qdd + 2.0 * qd + 3.0 * qd / numpy.hypot(qd, 0.1)
+            self.close(model.inverse_dynamics(q, qd, qdd).tau - bare.inverse_dynamics(q, qd, qdd).tau, added)
+
     def test_queries(self):
         with ambulo.Model.load(ambulo.MODELS / "lower_body_18.yaml", mass=70, stature=1.8) as model:
             self.assertEqual(len(model.coordinates), 18)

@@ -206,10 +206,65 @@
     check(`${own.row} lasts as long`, Math.abs(scene.duration / own.duration - 1) < 1e-5, scene.duration);
   }
 
+  // two motions overlaid, or each in a half of the view
+  async function sideBySide() {
+    const shownAs = () => document.querySelector("#choosers select[aria-label=shown]");
+    const halves = (rgba) => [0, 1].map((h) => rgba.filter((_, i) => Math.floor(((i / 4) % 64) / 32) === h));
+    const choose = (value) => {
+      shownAs().value = value;
+      shownAs().dispatchEvent(new Event("change"));
+    };
+    scrub(0.4);
+    const over = await picture(), [l, r] = halves(over);
+    check("overlaid at first", shownAs().value === "0" && $("apart").hidden && apart(l, r) > 0.5);
+    choose("1");
+    const [left, right] = halves(await picture());
+    check("side by side, each with its name", $("apart").textContent.includes("walk")
+      && $("apart").textContent.includes("brisk<b>") && $("apart").children.length === 2, $("apart").textContent);
+    check("alike, but not the same", apart(left, right) > 0.1 && apart(left, right) < 12, apart(left, right));
+    check("no ghost there", !shown(document.querySelector("[data-show=ghost]")));
+    scrub(0.7);
+    const later = halves(await picture());
+    check("both move", apart(left, later[0]) > 0.1 && apart(right, later[1]) > 0.1);
+    choose("0");
+    scrub(0.4);
+    check("overlaid again", apart(over, await picture()) < 0.02);
+  }
+
+  // what would be saved, in place of a download
+  async function saves() {
+    const blobs = [], make = URL.createObjectURL, click = HTMLAnchorElement.prototype.click, names = [];
+    URL.createObjectURL = (blob) => {
+      blobs.push(blob);
+      return make.call(URL, blob);
+    };
+    HTMLAnchorElement.prototype.click = function () {
+      names.push(this.download);
+    };
+    $("picture").click();
+    await until(() => names.length === 1);
+    check("saves a picture", names[0] === "walk.png" && blobs[0].type === "image/png" && blobs[0].size > 5000, names);
+    $("film").click();
+    check("a film begins at the beginning", clock() < 0.1 && $("film").textContent === "Stop", clock());
+    await until(() => clock() > 0.1);
+    $("film").click();
+    await wait(300);
+    check("one that is stopped is not saved", names.length === 1 && $("film").textContent === "Film", names);
+    $("film").click();
+    await until(() => names.length === 2);
+    check("saves a film", /^walk\.(webm|mp4)$/.test(names[1]) && /^video/.test(blobs[1].type) && blobs[1].size > 20000,
+      `${names} ${blobs[1]?.size}`);
+    check("and stands at the end", $("play").getAttribute("aria-label") === "Play" && canvas.width !== 1280);
+    URL.createObjectURL = make;
+    HTMLAnchorElement.prototype.click = click;
+  }
+
   const words = () => document.body.textContent;
   if (kind === "walk") {
     names();
     await view();
+    await sideBySide();
+    await saves();
     await curves();
     await way();
     check("in words", /\d+ iterations on grids of [\d, ]+ and \d+ intervals.*counts as kept/.test(words()));
@@ -313,6 +368,13 @@
     for (const own of window.own) nearOwn(own);
     check("how near they are is said", /places are within [\d.]+ mm, angles within [\d.]+°/.test(words()),
       $("precision").textContent);
+  } else if (kind === "axes") {
+    await frame();
+    const chosen = (label) => document.querySelector(`#study select[aria-label="${label}"]`).selectedOptions[0].textContent;
+    check("the axis with most effect is across", chosen("across") === "mass", chosen("across"));
+    check("what varies most with it is up", chosen("up") === "objective", chosen("up"));
+    check("what that leaves is shaded by the other", chosen("shade") === "nodes", chosen("shade"));
+    check("lines along it alone", document.querySelectorAll(".join").length === 6);
   } else if (kind === "front") {
     await frame();
     const { front, cases } = globalThis.ambulo.study, on = document.querySelectorAll(".dot:not(.off)").length;
@@ -335,6 +397,11 @@
     check("the clock goes", clock() > 0.1);
     check("no view is offered", ![...document.querySelectorAll("[data-view]")].some(shown));
   }
+  // on a phone too: nothing stands beyond the screen, nor has to be pushed into it, but for tables
+  const beyond = [...document.querySelectorAll("header *, .shows *, .bar *, .tabs *")].filter((n) => shown(n)
+    && (n.getBoundingClientRect().right > innerWidth + 1 || n.scrollWidth > n.clientWidth + 1 && n.matches("div")));
+  check("all of it fits into the screen", document.documentElement.scrollWidth <= innerWidth && beyond.length === 0,
+    beyond.map((n) => n.outerHTML.slice(0, 90)));
   const asked = performance.getEntriesByType("resource").filter((r) => !/^(data|blob):/.test(r.name));
   check("asks the network for nothing", asked.length === 0, asked.map((r) => r.name));
   check("no error, no warning", window.faults.length === 0, window.faults.join(" | "));

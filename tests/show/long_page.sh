@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The page in a browser, headless: six pages in the frames of one, each used as a person would
+# The page in a browser, headless: seven pages in the frames of one, each used as a person would
 # (checks.js) and watched for errors (watch.js): a walk with a name that is code, beside another
-# result; a walk with muscles; a failed solve; a study; a front; and a browser without WebGL. Without chromium it is skipped, but for
-# what needs none: the size of pages, and that the built page is that of its sources.
-# `make check-page` installs a browser. Prints "N passed, N failed".
+# result; a walk with muscles; a failed solve; a study; a study of two axes; a front; and a browser
+# without WebGL. Without chromium it is skipped, but for what needs none: the size of pages, and that
+# the built page is that of its sources. `make check-page` installs a browser. Prints "N passed, N
+# failed".
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -44,12 +45,16 @@ models=$top/models
   printf 'ambulo: 1\nkind: sweep\nname: small_study\nbase: %s/two_link_reach.yaml\naxes:\n  - {key: time.duration, name: time, values: [1, 1.1, 1.2, 1.3]}\noutputs: [objective]\n' \
     "$models" | sed 's/1, 1.1, 1.2/0.9, 1, 1.1/' >study.yaml
   "$AMBULO" batch study.yaml -o study -q
+  # an axis that hardly matters before one that does, outputs that hardly vary before one that does
+  printf 'ambulo: 1\nkind: sweep\nname: two_axes\nbase: %s/two_link_reach.yaml\naxes:\n  - {key: time.intervals, name: nodes, values: [20, 22, 24]}\n  - {key: "model.links[lower].body.mass", name: mass, values: [1, 1.5, 2]}\noutputs: [duration, audit.violation.worst, objective]\n' \
+    "$models" >axes.yaml
+  "$AMBULO" batch axes.yaml -o axes -q
   "$AMBULO" batch "$top/tests/study/front.yaml" -o front -q
 } 2>/dev/null
 # a name that would end the script it stands in, and begin an element
 evil='a<\/script><b>\\u2028\\"'"'"'\&ü'
 sed -i "0,/\"problem\": \"walk\"/s//\"problem\": \"$evil\"/" walk/summary.json
-for name in muscles failed study front; do
+for name in muscles failed study axes front; do
   check "ambulo report $name" "$AMBULO" report $name -o $name.html >/dev/null
 done
 check "ambulo report of two" "$AMBULO" report walk "brisk<b>" -o walk.html >/dev/null
@@ -57,7 +62,7 @@ check "ambulo report of two" "$AMBULO" report walk "brisk<b>" -o walk.html >/dev
 "$AMBULO" solve "$models/walk_whole_body_45.yaml" -o large -q 2>/dev/null
 check "ambulo report of eight" "$AMBULO" report large large large large large large large large \
   -o eight.html >/dev/null
-for name in walk muscles failed study front eight; do
+for name in walk muscles failed study axes front eight; do
   check "$name.html: $(wc -c <$name.html) bytes, expected at most 1200000" \
     [ "$(wc -c <$name.html)" -le 1200000 ]
 done
@@ -80,7 +85,7 @@ page() {
     /^<\/body>/ && !done { done = 1 }
     END { print "<script>"; put(last); print "</script>" }' "$2"
 }
-for kind in walk muscles failed study front; do page $kind $kind.html >"$kind-test.html"; done
+for kind in walk muscles failed study axes front; do page $kind $kind.html >"$kind-test.html"; done
 # cases as their own folders have them; their names are those of the folders
 {
   sed '/^<meta charset/q' study-test.html
@@ -97,22 +102,23 @@ page flat brisk.html >flat-test.html
 cat >all.html <<'END'
 <!doctype html><meta charset="utf-8"><style>iframe { vertical-align: top }</style>
 <iframe width="640" height="480" src="walk-test.html#t=0.1&theme=light"></iframe>
-<iframe width="480" height="400" src="muscles-test.html#t=0.1"></iframe>
+<iframe width="390" height="480" src="muscles-test.html#t=0.1"></iframe>
 <iframe width="480" height="400" src="failed-test.html"></iframe>
 <iframe width="480" height="400" src="study-test.html#t=0.3"></iframe>
 <iframe width="480" height="400" src="front-test.html"></iframe>
+<iframe width="480" height="400" src="axes-test.html"></iframe>
 <iframe width="400" height="400" src="flat-test.html#webgl=0"></iframe>
 END
 : >browser.log
 "$browser" --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
   --ignore-gpu-blocklist --disable-extensions --no-first-run --disable-renderer-backgrounding \
   --disable-backgrounding-occluded-windows --user-data-dir="$work/profile" \
-  --remote-debugging-port=0 --enable-logging=stderr --window-size=1200,1100 \
+  --remote-debugging-port=0 --enable-logging=stderr --window-size=1700,1300 \
   "file://$work/all.html" >>browser.log 2>&1 &
 running=$!
 trap 'kill "$running" 2>/dev/null; wait "$running" 2>/dev/null; rm -rf "$work"' EXIT
 for _ in $(seq 1200); do # at most two minutes
-  [ "$(grep -c 'check: end ' browser.log)" -lt 6 ] && kill -0 "$running" 2>/dev/null || break
+  [ "$(grep -c 'check: end ' browser.log)" -lt 7 ] && kill -0 "$running" 2>/dev/null || break
   sleep 0.1
 done
 results=$(sed -n 's/.*CONSOLE[^"]*"check: \(.*\)", source: .*/\1/p' browser.log)
@@ -125,7 +131,7 @@ while IFS= read -r line; do
     ;;
   esac
 done <<<"$results"
-for kind in walk muscles failed study front flat; do
+for kind in walk muscles failed study axes front flat; do
   check "the checks of $kind come to their end" grep -q "^end $kind" <<<"$results"
 done
 [ "$failed" = 0 ] || grep CONSOLE browser.log | grep -v 'check: ' | tail -n 5

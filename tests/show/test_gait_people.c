@@ -165,6 +165,26 @@ static void times_and_signs(void **state) {
   scene_close(&s);
 }
 
+/* a knee that bends with negative angles: curves of people turn with it, powers do not */
+static void knees_that_bend_the_other_way(void **state) {
+  (void)state;
+  scene s;
+  scene_open(&s, "models/walk_normal.yaml", NULL);
+  const int knee = coordinate(&s, "knee_angle_l");
+  double before[2], after[2];
+  static const char *const quantities[] = {"q", "tau"};
+  for (int i = 0; i < 2; i++)
+    before[i] = ambulo__people_coordinate(&s.gait, quantities[i], knee).scale;
+  for (int i = 0; i < AMBULO__BODY_JOINTS; i++)
+    if (s.gait.joints[i].coordinate == knee) s.gait.joints[i].sign = -1;
+  for (int i = 0; i < 2; i++) {
+    after[i] = ambulo__people_coordinate(&s.gait, quantities[i], knee).scale;
+    assert_true(before[i] != 0.0);
+    assert_close(after[i], -before[i], 0.0);
+  }
+  scene_close(&s);
+}
+
 /* in body weights; the right foot is half a stride late */
 static void forces(void **state) {
   (void)state;
@@ -309,10 +329,10 @@ static void memory_runs_out(void **state) {
 
 static int test_gait_people_tests(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(times_and_signs),         cmocka_unit_test(forces),
-      cmocka_unit_test(without_ground_reaction), cmocka_unit_test(several_strides),
-      cmocka_unit_test(drawn_behind_walks),      cmocka_unit_test(feet_in_one_line),
-      cmocka_unit_test(memory_runs_out)};
+      cmocka_unit_test(times_and_signs),  cmocka_unit_test(knees_that_bend_the_other_way),
+      cmocka_unit_test(forces),           cmocka_unit_test(without_ground_reaction),
+      cmocka_unit_test(several_strides),  cmocka_unit_test(drawn_behind_walks),
+      cmocka_unit_test(feet_in_one_line), cmocka_unit_test(memory_runs_out)};
   return cmocka_run_group_tests_name("picture/gait_people", tests, NULL, NULL);
 }
 

@@ -56,6 +56,26 @@ static void a_mirrored_step_on_events(void **state) {
   check(&c, NULL);
 }
 
+/* rotors and brakes: of one side, of both with mirrored ends, of a joint that nothing drives */
+static void drives(void **state) {
+  (void)state;
+  static const setting walk = {
+      "models/walk_normal.yaml",
+      {"time.intervals=30", "trajectory.intervals=9",
+       "model.links[shank_l].coordinate.armature=0.001",
+       "model.links[shank_r].coordinate.armature=0.001",
+       "model.links[shank_l].coordinate.friction=0.004",
+       "model.links[shank_r].coordinate.friction=0.004"},
+      {"model.links[shank_r].coordinate.armature", "model.links[shank_r].coordinate.friction"}};
+  static const setting swing = {
+      "models/acrobot_swing.yaml",
+      {"time.intervals=60", "trajectory.intervals=30", "model.links[trunk].coordinate.damping=2",
+       "model.links[legs].coordinate.armature=0.5"},
+      {"model.links[trunk].coordinate.damping", "model.links[legs].coordinate.armature"}};
+  check(&walk, NULL);
+  check(&swing, NULL);
+}
+
 static void several_loads(void **state) {
   (void)state;
   static const setting c = {"models/walk_normal.yaml",
@@ -197,6 +217,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(springs_on_four_steps),
       cmocka_unit_test(a_mirrored_step_on_events),
+      cmocka_unit_test(drives),
       cmocka_unit_test(several_loads),
       cmocka_unit_test(strikes_that_move),
       cmocka_unit_test(springs_of_no_stiffness),

@@ -83,8 +83,8 @@ static inline scalar reference_generalized_force(const ambulo_model *model,
 static inline void reference_subtract(const ambulo_model *model, const link_state *states, int link,
                                       const reference_wrench *w, scalar *tau) {
   for (; link >= 0; link = model->links[link].parent) {
-    int k = model->links[link].coordinate;
-    if (k >= 0) tau[k] -= reference_generalized_force(model, states, link, w);
+    int k = ambulo__moved_by(model, link);
+    if (k >= 0) tau[k] -= states[link].slope * reference_generalized_force(model, states, link, w);
   }
 }
 
@@ -199,6 +199,46 @@ static inline int reference_carries_all(const ambulo_model *model,
   return 1;
 }
 
+/* The torque of the joint of a link, without contacts: Eq. (10). */
+static inline scalar reference_joint_force(const ambulo_model *model, const link_state *states,
+                                           int link) {
+  static const matrix identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  int parent = model->links[link].parent;
+  const matrix *p = parent >= 0 ? &states[parent].a : &identity, *t1 = &states[link].t1;
+  scalar tau = 0;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 4; j++) {
+      scalar slope = 0;
+      for (int k = 0; k < 3; k++) slope += p->e[i][k] * t1->e[k][j];
+      tau += slope * (states[link].d[j][i] - model->gravity[i] * states[link].e[j]);
+    }
+  }
+  return tau;
+}
+
+/* Takes what joints that carry everything still have off: they have nothing, also in flight. */
+static inline void reference_forget(const ambulo_model *model, const reference_contacts *contacts,
+                                    const link_state *states, scalar share[][6],
+                                    const double *ground, scalar *tau) {
+  for (int l = 0; l < model->link_count; l++) {
+    int k = ambulo__moved_by(model, l);
+    if (k < 0 || !reference_carries_all(model, contacts, l)) continue;
+    scalar left = reference_joint_force(model, states, l);
+    for (int c = 0; c < contacts->count; c++) {
+      const double *p = ground + 4 + 4 * c;
+      const scalar at[3] = {p[0], p[1], p[2]};
+      reference_wrench w;
+      reference_cross(at, share[c], w.moment);
+      for (int i = 0; i < 3; i++) {
+        w.moment[i] += share[c][3 + i];
+        w.force[i] = share[c][i];
+      }
+      left -= reference_generalized_force(model, states, l, &w);
+    }
+    tau[k] -= states[l].slope * left;
+  }
+}
+
 /* Takes (f, m) at p off the torques; f first. */
 static inline void reference_take_off(const ambulo_model *model, const link_state *states, int link,
                                       const scalar share[6], const double p[3], scalar *tau) {
@@ -242,7 +282,8 @@ static inline ambulo_status contact_reference(const ambulo_model *model,
     for (int i = 0; i < 6; i++) contact[6 * c + i] = share[c][i];
     reference_take_off(model, states, contacts->link[c], share[c], ground + 4 + 4 * c, out);
   }
-  for (int l = 0; l < model->link_count; l++) {
+  if (model->coupled_count > 0) reference_forget(model, contacts, states, share, ground, out);
+  for (int l = 0; l < model->link_count && model->coupled_count == 0; l++) {
     int k = model->links[l].coordinate;
     if (k >= 0 && reference_carries_all(model, contacts, l)) out[k] = 0;
   }

@@ -36,6 +36,9 @@ static inline double unit_in_file(const ambulo_problem *problem, const ambulo_se
     return size_in_file(problem, s) *
            (turns && problem->keys.radians > 0.0 ? problem->keys.radians : 1.0);
   if (turns) return units->angle;
+  /* drives of hinges */
+  if (strstr(s->name, "armature")) return units->mass * units->length * units->length;
+  if (strstr(s->name, "damping") || strstr(s->name, "friction")) return units->moment;
   if (strcmp(s->unit, "N m") == 0) return units->moment;
   if (strcmp(s->unit, "N") == 0) return units->force;
   return units->length;

@@ -14,7 +14,7 @@
 
 #include "ambulo/model.h"
 
-enum { random_max_links = 160, random_max_points = 6, random_max_root = 6 };
+enum { random_max_links = 160, random_max_points = 6, random_max_root = 6, random_max_knots = 7 };
 
 typedef struct random_source {
   uint64_t state;
@@ -59,6 +59,7 @@ typedef struct random_tree {
   ambulo_link links[random_max_links];
   ambulo_coordinate coordinates[random_max_links];
   ambulo_point points[random_max_points];
+  double splines[random_max_links][2 * random_max_knots];
   char names[2 * random_max_links + random_max_points][24];
   ambulo_model_definition definition;
 } random_tree;
@@ -152,6 +153,19 @@ static inline void random_tree_make(random_tree *tree, uint64_t seed, int coordi
   tree->definition.gravity[2] = random_between(&source, -2, 2);
 }
 
+/* Gives about half of the coordinates a drive, with some or all of its parts. */
+static inline void random_tree_drive(random_tree *tree, uint64_t seed) {
+  random_source source = {seed};
+  for (int i = 0; i < tree->definition.coordinate_count; i++) {
+    ambulo_coordinate *c = &tree->coordinates[i];
+    int parts = random_below(&source, 16);
+    if (parts & 1) c->armature = random_between(&source, 0.01, 2);
+    if (parts & 2) c->damping = random_between(&source, 0.01, 2);
+    if (parts & 4) c->friction = random_between(&source, 0.01, 2);
+    if (parts & 8) c->armature = c->damping = c->friction = 0;
+  }
+}
+
 /* A link of the chain that random_tree_put_on_root puts below a tree: most often a slider along a
  * world axis. */
 static inline void random_root_link(random_source *source, ambulo_link *link, int parent) {
@@ -203,6 +217,48 @@ static inline int random_tree_put_on_root(random_tree *tree, uint64_t seed) {
   for (int k = 0; k < definition->coordinate_count; k++) tree->coordinates[k].mirror = k;
   for (int i = 0; i < definition->point_count; i++) tree->points[i].link += count;
   return moving;
+}
+
+/* A function of moderate slopes, whatever the pose: a spline, a polynomial or a straight line. */
+static inline void random_function(random_source *source, ambulo_link *link, double *spline) {
+  int count = random_below(source, random_max_knots + 1);
+  double x = random_between(source, -3, 0), scale = 1;
+  for (int i = 0; i<5; i++, scale *= i> 1 ? 0.01 : 1)
+    link->polynomial[i] = scale * random_between(source, -1, 1);
+  if (random_unit(source) < 0.3)
+    link->polynomial[2] = link->polynomial[3] = link->polynomial[4] = 0;
+  if (count < 2) return;
+  for (int k = 0; k < count; k++) {
+    spline[2 * k] = x;
+    spline[2 * k + 1] = random_between(source, -0.5, 0.5);
+    x += random_between(source, 0.2, 1.5);
+  }
+  link->spline = spline;
+  link->spline_count = count;
+}
+
+/* Couples about a third of the joints to coordinates that are left, at least one: above, below or
+ * beside them. */
+static inline void random_tree_couple(random_tree *tree, uint64_t seed) {
+  random_source source = {seed};
+  ambulo_model_definition *d = &tree->definition;
+  int left = 0, seen = 0;
+  for (int i = 0; i < d->link_count; i++) {
+    ambulo_link *link = &tree->links[i];
+    if (link->type == AMBULO_FIXED) continue;
+    int last = seen + 1 == d->coordinate_count && left == 0;
+    if (!last && random_unit(&source) < 0.35) {
+      link->coupled_to = 0;
+      random_function(&source, link, tree->splines[i]);
+    } else {
+      tree->coordinates[left++] = tree->coordinates[seen];
+    }
+    seen++;
+  }
+  d->coordinate_count = left;
+  for (int k = 0; k < left; k++) tree->coordinates[k].mirror = k;
+  for (int i = 0; i < d->link_count; i++)
+    if (tree->links[i].coupled_to >= 0) tree->links[i].coupled_to = random_below(&source, left);
 }
 
 #endif

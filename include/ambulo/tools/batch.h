@@ -52,10 +52,18 @@ AMBULO_API const char *ambulo_sweep_value(const ambulo_sweep *sweep, int index, 
 
 /* ----------------------------------------------------------------------- run */
 
+/* Cases that ended in one state: a verdict's name, or that of an end without a result. */
+typedef struct ambulo_batch_tally {
+  char state[24]; /* "optimal", "infeasible", "invalid", "crashed", "timeout", ...; "": unused */
+  int cases;
+} ambulo_batch_tally;
+enum { AMBULO_BATCH_STATES = 16 };
+
 /* State of a run, for progress. */
 typedef struct ambulo_batch_progress {
   int cases;        /* of this shard */
   int done, failed; /* cases with a record; failed: those without a valid solution */
+  int no_result; /* of failed: ended without a result (invalid, error, crashed, timeout, memory) */
   int running;
   int resumed;            /* of done: found finished at the start */
   double seconds;         /* since the start */
@@ -64,6 +72,8 @@ typedef struct ambulo_batch_progress {
   const char *worst;      /* name of that case; NULL: none yet */
   const char *last;       /* name of the case that ended last; NULL: none yet */
   char last_state[24];    /* "optimal", "infeasible", "crashed", "timeout", ... */
+  ambulo_batch_tally tally[AMBULO_BATCH_STATES]; /* done, by state, in the order of their first */
+  char refusal[480]; /* the first case without a result, its state and first error; "": none */
 } ambulo_batch_progress;
 
 typedef struct ambulo_batch_options {
@@ -111,6 +121,7 @@ typedef struct ambulo_front_census {
 typedef struct ambulo_batch_census {
   int cases;
   int done, failed; /* with a record; failed: those of them without a valid solution */
+  int no_result;    /* of failed: ended without a result */
   int missing;      /* not computed yet */
   int stale;        /* computed from other inputs */
   int corrupt;      /* finished, but damaged since: not what was written, or cannot be read.

@@ -51,6 +51,8 @@ typedef struct ambulo_inverse_options {
 
   int recompute_rates; /* 1: rates and accelerations from the values even where the file has them */
   double ground_height; /* of the plane of the zero-moment point, m along up; 0 */
+  double from, to;      /* s: rows of the motion that are used; AMBULO_OFF: from its first, to its
+                           last. Rates and filters are those of the whole motion */
   int strict;           /* 1: what is only doubted, a warning otherwise, is an error (E_SCHEMA) */
   int overwrite;        /* 1: write over an input, and over what ambulo did not write */
 } ambulo_inverse_options;
@@ -80,8 +82,9 @@ AMBULO_TOOL_DEFAULT(ambulo_inverse_outputs); /* NULL */
  * spline of degree 5 (3 with fewer than 6 rows; at least 4 rows) through the rates or the values.
  * Coordinates it lacks are zero, with a warning. Forces on the feet, if any, are taken off the
  * torques, so that tau of the root is what they leave over; they are interpolated linearly as
- * force and moment about the origin, never as centres of pressure; moment.FOOT.x|y|z, where a file
- * has all three, are those moments. Forces and moments of hands on what they hold or push
+ * force and moment about the origin, never as centres of pressure, and where their file is shorter
+ * than the motion, the rows of the common time are used, with a warning; moment.FOOT.x|y|z, where a
+ * file has all three, are those moments. Forces and moments of hands on what they hold or push
  * (held.LOAD.POINT.force.x|y|z, held.LOAD.POINT.moment.x|y|z; ambulo/hold.h), of the motion or else
  * of the file of forces, are added to the torques and to the root wrench.
  *

@@ -8,6 +8,7 @@
  *     batch.h    many problems: sweeps
  *     fit.h      weights and parameters fitted to a motion
  *     picture.h  results as pictures: SVG, PDF, PNG
+ *     film.h     results as films: MP4, GIF
  *     page.h     results to watch, as one HTML file
  *     import.h   models of OpenSim, URDF and MuJoCo
  *     export.h   models and motions for OpenSim, URDF and NumPy
@@ -21,6 +22,7 @@
 #include "ambulo/tools/batch.h"
 #include "ambulo/tools/compare.h"
 #include "ambulo/tools/export.h"
+#include "ambulo/tools/film.h"
 #include "ambulo/tools/fit.h"
 #include "ambulo/tools/import.h"
 #include "ambulo/tools/inverse.h"

@@ -264,3 +264,14 @@ ambulo__number ambulo__number_text(double value) {
   }
   return number;
 }
+
+int ambulo__digits_apart(double a, double b) {
+  char text[2][48];
+  int digits = 6;
+  for (; digits < 17; digits++) {
+    (void)snprintf(text[0], sizeof text[0], "%.*g", digits, a);
+    (void)snprintf(text[1], sizeof text[1], "%.*g", digits, b);
+    if (a == b || strcmp(text[0], text[1]) != 0) break;
+  }
+  return digits;
+}

@@ -23,5 +23,7 @@ typedef struct ambulo__number {
   char text[AMBULO__NUMTEXT_SIZE];
 } ambulo__number;
 ambulo__number ambulo__number_text(double value);
+/* How many digits, at least six, tell two numbers apart. */
+int ambulo__digits_apart(double a, double b);
 
 #endif

@@ -64,7 +64,7 @@ enum { NOT_GIVEN = -1, ITSELF = -1, NONE = -1 };
 static const ambulo__usual rows[] = {
     ROW(ambulo_model_definition, 7,
         {.name = "model", .gravity = {0, -9.81, 0}, .forward = {1, 0, 0}, .stature = AMBULO_OFF}),
-    ROW(ambulo_link, 0, {.parent = -1, .type = AMBULO_FIXED, .coordinate = -1}),
+    ROW(ambulo_link, 0, {.parent = -1, .type = AMBULO_FIXED, .coordinate = -1, .coupled_to = NONE}),
     ROW(ambulo_coordinate, 0,
         {.type = AMBULO_REVOLUTE,
          .range = {-INFINITY, INFINITY},

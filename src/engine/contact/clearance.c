@@ -5,6 +5,7 @@
  *     c = h min(1, 4 s, 6 (1 - s))
  *     ball >= c,   heel >= c / 2,   tip >= c where s >= tip_from,   all <= ceiling     m
  *     |yaw|, |roll| <= turn                                                             rad
+ *     of a point foot its height >= c alone
  *     heel at most `outward` beside its next foothold, `inward` towards the other foot  m
  *
  * heights above the surface under the swing (contact/contacts.h); yaw, roll and track against
@@ -169,14 +170,17 @@ static void swing_rows(const swing *w) {
   const ambulo__gait_context *context = w->context;
   double part = ambulo__clearance_part(w->phase, NULL), low = c->height * part;
   double drop = ambulo__tip_drop(context->definition, w->foot, context->times[w->node], w->phase);
-  height_bounds(w, foot->heel_center, 1, 0.5 * low);
+  ambulo__foot_outline outline = ambulo__foot_outline_of(w->context->model, w->foot);
+  if (!outline.is_point) height_bounds(w, foot->heel_center, 1, 0.5 * low);
   height_bounds(w, foot->toe_center, 1, low);
   if (foot->has_tip) height_bounds(w, foot->tip, w->tip, low - drop * (1.0 - part));
-  if (!ambulo__foot_outline_of(w->context->model, w->foot).moves_sideways) return;
-  ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot, w->surface.left);
-  ambulo__linear roll = ambulo__foot_roll(w->context, w->foot, w->surface.up);
-  turn_bounds(w, &yaw, "turned right", "turned left");
-  turn_bounds(w, &roll, "left side low", "left side high");
+  if (!outline.moves_sideways) return;
+  if (!outline.is_point) {
+    ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot, w->surface.left);
+    ambulo__linear roll = ambulo__foot_roll(w->context, w->foot, w->surface.up);
+    turn_bounds(w, &yaw, "turned right", "turned left");
+    turn_bounds(w, &roll, "left side low", "left side high");
+  }
   track_bounds(w);
 }
 

@@ -113,7 +113,8 @@ ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
  * a roll from heel to toes without a flat foot is a jump.
  *
  * Centre, ahead of the heel's foothold, with L from heel to toe centre (ball): r (L + a),
- * a = 0.02 m for 1.75 m. What a single contact carries does not depend on its centre.
+ * a = 0.02 m for 1.75 m; of a point foot its point. What a single contact carries does not depend
+ * on its centre.
  *
  * A foot with arcs, their centres at h and t where it is flat: h + r (t - h), and where it rolls on
  * one of radius R, where that touches at a usual pitch, with u the part of the time on it that is
@@ -156,18 +157,21 @@ static void add_slot(ambulo__slots *s, int effector, int link, ambulo__slot_part
 
 ambulo__slots ambulo__slots_of(const ambulo_problem_definition *d) {
   const ambulo_model *m = d->model;
-  ambulo__slots s = {.count = 0};
+  ambulo__slots s = {.all_points = m->foot_count > 0};
   for (int fore = 0; fore < 2; fore++) {
     for (int f = 0; f < m->foot_count; f++) {
       int heel = m->points[m->feet[f].heel_center].link,
           toe = m->points[m->feet[f].toe_center].link;
+      s.all_points &= ambulo__foot_is_point(&m->feet[f]);
       if (!fore) add_slot(&s, f, heel, heel == toe ? AMBULO__WHOLE_FOOT : AMBULO__REAR_FOOT);
       if (fore && heel != toe) add_slot(&s, f, toe, AMBULO__FORE_FOOT);
     }
   }
   for (int i = 0; i < m->patch_count; i++)
-    if (ambulo__patch_is_used(d, i))
+    if (ambulo__patch_is_used(d, i)) {
       add_slot(&s, m->foot_count + i, m->points[m->patches[i].point].link, AMBULO__WHOLE_PATCH);
+      s.all_points = 0;
+    }
   return s;
 }
 
@@ -238,12 +242,18 @@ static double rolled(const ambulo_contact *contact, const ambulo__stance *stance
   return (time - stance->from) / rolling;
 }
 
-/* Of the flat foot all from the heel's corners on, but of toes, which bend, only what is next to
- * the ball; on the heel or the toes of a rigid foot the edge over which it turns, and the toes. */
+/* Of a point foot its region. Of the flat foot all from the heel's corners on, but of toes, which
+ * bend, only what is next to the ball; on the heel or the toes of a rigid foot the edge over which
+ * it turns, and the toes. */
 static void box_of_sole(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
                         ambulo_contact_mode mode, double box[2]) {
   double edge = d->ground_reaction.arc_pressure, beyond = outline->tip - outline->length;
   int on_toes = ambulo__mode_is_on_toes(mode);
+  if (outline->is_point) {
+    box[0] = -AMBULO__POINT_REGION;
+    box[1] = AMBULO__POINT_REGION;
+    return;
+  }
   box[0] = on_toes ? -edge : outline->back;
   box[1] = on_toes ? beyond : edge;
   if (ambulo__mode_is_flat(mode))
@@ -265,7 +275,8 @@ int ambulo__pressure_box(const ambulo_problem_definition *d, const ambulo__foot_
 double ambulo__pressure_side(const ambulo_problem_definition *d,
                              const ambulo__foot_outline *outline) {
   double given = d->ground_reaction.pressure_width;
-  return isnan(given) ? fmax(outline->half_width, d->ground_reaction.arc_pressure) : given;
+  double least = outline->is_point ? AMBULO__POINT_REGION : d->ground_reaction.arc_pressure;
+  return isnan(given) ? fmax(outline->half_width, least) : given;
 }
 
 /* ends along forward, from the heel's foothold */
@@ -311,6 +322,7 @@ static double narrow(ambulo__slot_part part, roll at, const ambulo__foot_outline
                      double size, ambulo__contact_load *load) {
   double length = outline->length, *box = load->box;
   double ahead = length + AMBULO__BEYOND_BALL * size;
+  if (outline->is_point) return 0.0;
   if (part == AMBULO__WHOLE_FOOT) {
     double arcs[] = {outline->arc_ahead[0], outline->arc_ahead[1] - outline->arc_ahead[0]};
     return outline->has_arcs ? arcs[0] + at.along * arcs[1] : at.along * ahead;

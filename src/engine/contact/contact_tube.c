@@ -28,6 +28,8 @@
  *
  *     -e <= n.(r - p) + d (a1 - x) / (a1 - a0) <= e,   pitch - d / (a1 - a0) in place of pitch
  *
+ * A point foot is held in its place alone, without pad: its link turns about it.
+ *
  * Ahead of the ball F is negative, and the heel rises: pressure reaches 2 cm there, for 1 mm of 8.
  *
  * A body that rolls over its feet with fewer control points than nodes cannot hold every contact
@@ -60,7 +62,9 @@ static ambulo__linear pad_of(const tube *t, const ambulo_contact *contact) {
   const ambulo_problem_definition *d = context->definition;
   ambulo__linear pad = {.count = 0};
   int slot = contact->foot; /* the first slots are of feet, or of their rear parts */
-  if (d->ground_reaction.heel_pad == 0.0 || ambulo__mode_is_on_toes(contact->mode)) return pad;
+  if (d->ground_reaction.heel_pad == 0.0 || ambulo__mode_is_on_toes(contact->mode) ||
+      t->outline->is_point)
+    return pad;
   ambulo__contact_load load =
       ambulo__contact_load_at(d, t->outlines, t->slots, slot, contact, context->times[t->node]);
   if (!load.loaded || load.weight <= AMBULO__LEAST_WEIGHT) return pad;
@@ -113,8 +117,9 @@ static void place_bounds(const tube *t, int point, const double direction[3], co
 static void height_bounds(const tube *t, int i, int point, double ahead, const double up[3],
                           const double place[3]) {
   ambulo__linear form = way_off(t, point, up, place);
-  add_pad(t, i, (t->outline->touch[1] - ahead) / (t->outline->touch[1] - t->outline->touch[0]),
-          &form);
+  if (!t->outline->is_point)
+    add_pad(t, i, (t->outline->touch[1] - ahead) / (t->outline->touch[1] - t->outline->touch[0]),
+            &form);
   within(t, point, &form, "below", "above");
 }
 
@@ -277,6 +282,7 @@ static void contact_rows(const tube *t) {
     place_rows(t, i);
     on_toes &= ambulo__mode_is_on_toes(t->contact[i]->mode);
   }
+  if (t->outline->is_point) return;
   pitch_bounds(t);
   t->table->before = t->before[0];
   toe_rows(t);

@@ -139,13 +139,14 @@ int ambulo__contacts_are_level(const ambulo_problem_definition *definition);
 enum { AMBULO__FOOT_CORNERS = 4 };
 
 typedef struct ambulo__foot_outline {
-  double length;                     /* heel centre to toe centre, m */
-  double back, tip;                  /* where the sole ends, from the heel centre: back <= 0, m */
-  double half_width;                 /* from the middle to the corner that is nearest to it, m */
-  int moves_sideways;                /* 0: a planar foot, which has no lateral rows */
-  int count;                         /* corners: 2 (planar foot) or 4 */
-  int point[AMBULO__FOOT_CORNERS];   /* the model's point of each corner */
-  int is_heel[AMBULO__FOOT_CORNERS]; /* heel corner, else toe corner */
+  double length;                   /* heel centre to toe centre, m */
+  double back, tip;                /* where the sole ends, from the heel centre: back <= 0, m */
+  double half_width;               /* from the middle to the corner that is nearest to it, m */
+  int moves_sideways;              /* 0: a planar foot, which has no lateral rows */
+  int is_point;                    /* a point foot: one corner, of no length, turned as it likes */
+  int count;                       /* corners: 1 (point), 2 (planar foot) or 4 */
+  int point[AMBULO__FOOT_CORNERS]; /* the model's point of each corner */
+  int is_heel[AMBULO__FOOT_CORNERS];     /* heel corner, else toe corner */
   double place[AMBULO__FOOT_CORNERS][2]; /* relative to the heel centre, m */
   int has_arcs;
   int arc[2];                     /* the model's points: centres of the arcs of heel and forefoot */
@@ -210,6 +211,9 @@ enum { AMBULO__MOST_SLOTS = 6 };
 
 /* How far ahead of the ball the centre under the toes is, m of a body of 1.75 m. */
 #define AMBULO__BEYOND_BALL 0.02
+/* m: half the region in which a point foot presses. A ball of rubber rolls by its radius times the
+ * angle of its leg: 16 mm by a third of a radian. */
+#define AMBULO__POINT_REGION 0.005
 /* Of the time that a foot is flat: the least over which that centre comes there, and goes on. */
 #define AMBULO__SHORTEST_GLIDE (1.0 / 16.0)
 
@@ -219,6 +223,7 @@ typedef struct ambulo__slots {
                                      */
   int link[AMBULO__MOST_SLOTS];
   int part[AMBULO__MOST_SLOTS]; /* an ambulo__slot_part */
+  int all_points;               /* 1: all of point feet, which share one moment */
 } ambulo__slots;
 
 typedef enum ambulo__slot_part {

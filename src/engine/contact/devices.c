@@ -6,7 +6,9 @@
  *
  *     s_i = u . e_i,    s_ij = (e_i . e_j - s_i s_j) / s + u . d2e/dq_i dq_j
  *
- * and the last part is not zero for two joints on one side only. Kept of an element, n coordinates:
+ * and the last part is not zero for two joints on one side only. A coupled joint stands at f(q_k):
+ * then s_i f' and, with i and j such joints or f' = 1, s_ij f'_i f'_j are by coordinates, and s_ii
+ * gains s_i f''. Kept of an element, n coordinates:
  * a header, s_i [n], s_i. [n], s_ij [n][n], and room for axes and slopes [n][3] of both sides.
  */
 #include "contact/devices.h"
@@ -159,9 +161,9 @@ static double measure_line(const element *e, const double *q, const parts *p, do
   return length;
 }
 
-static int turns(const element *e, int i) {
+static const ambulo__path_joint *joint_of(const element *e, int i) {
   int first = e->path[0].count, side = i >= first;
-  return e->path[side].joints[i - (side ? first : 0)].turns;
+  return &e->path[side].joints[i - (side ? first : 0)];
 }
 
 /* (D.5) s_ij */
@@ -171,12 +173,29 @@ static void bend_line(const element *e, const parts *p, double length, const dou
     for (int j = i; j < e->count; j++) {
       const double *e_i = p->lever + 3 * i, *e_j = p->lever + 3 * j;
       double bend = (ambulo__dot(e_i, e_j) - p->slope[i] * p->slope[j]) / length, turned[3];
-      if ((i < first) == (j < first) && turns(e, i)) {
+      if ((i < first) == (j < first) && joint_of(e, i)->turns) {
         ambulo__cross(p->axis + 3 * i, e_j, turned);
         bend += ambulo__dot(u, turned);
       }
       p->bend[i * e->count + j] = p->bend[j * e->count + i] = bend;
     }
+  }
+}
+
+/* s_i and s_ij of coupled joints, by their coordinates */
+static void couple(const element *e, const double *q, int bends, const parts *p) {
+  const int n = e->count;
+  for (int i = 0; i < n; i++) {
+    const ambulo__path_joint *joint = joint_of(e, i);
+    double f[AMBULO__COUPLING_SLOPES];
+    if (!joint->coupling) continue;
+    (void)ambulo__path_value(joint, q[joint->coordinate * AMBULO__LANES], f);
+    for (int j = 0; bends && j < n; j++) {
+      p->bend[i * n + j] *= f[0];
+      p->bend[j * n + i] *= f[0];
+    }
+    if (bends) p->bend[i * n + i] += f[1] * p->slope[i];
+    p->slope[i] *= f[0];
   }
 }
 
@@ -191,6 +210,7 @@ static void measure(const element *e, const double *q, const double *qd, int ben
   } else {
     kept[kept_along] = measure_line(e, q, &p, u);
     if (bends) bend_line(e, &p, kept[kept_along], u);
+    couple(e, q, bends, &p);
   }
   for (int i = 0; i < e->count; i++) {
     double turn = 0.0;

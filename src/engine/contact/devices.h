@@ -121,12 +121,15 @@ int ambulo__device_partner(const ambulo_problem_definition *definition, int devi
  *
  *     turning   dp/dq_i = z_i x (p - o_i),    sliding   dp/dq_i = z_i
  *     d2p/dq_i dq_j = z_i x dp/dq_j           i turns, and is j or above it; 0 if i slides
+ *
+ * A coupled joint stands at f(q_k), and what is written for its q above is by that value.
  */
 
 typedef struct ambulo__path_joint {
   int coordinate, turns;
-  double angle, offset; /* theta, d at q = 0 */
-  double after[12];     /* to the next joint, rows of 3 x 4; behind the last: to the point */
+  const ambulo__coupling *coupling; /* of a coupled joint, which the coordinate moves; NULL */
+  double angle, offset;             /* theta, d at q = 0 */
+  double after[12]; /* to the next joint, rows of 3 x 4; behind the last: to the point */
 } ambulo__path_joint;
 
 typedef struct ambulo__device_path {
@@ -145,6 +148,10 @@ int ambulo__path_common(const ambulo_model *model, const int link[2]);
 
 /* frame (rows of 3 x 4) before a joint to that before the next, behind the last: at the point. */
 void ambulo__path_follow(double frame[12], const ambulo__path_joint *joint, double q);
+
+/* Where a joint stands at q, with the derivatives by its coordinate (NULL: without). */
+double ambulo__path_value(const ambulo__path_joint *joint, double q,
+                          double slope[AMBULO__COUPLING_SLOPES]);
 
 /* Where the point is, with axis[count][3] and slope[count][3] = dp/dq of the joints; q has a stride
  * of AMBULO__LANES. */

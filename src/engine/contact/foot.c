@@ -201,8 +201,8 @@ static void add_ends(const ambulo_model *model, int foot, ambulo__foot_outline *
 }
 
 ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot) {
-  ambulo__foot_outline outline = {.count = 0};
   const ambulo_foot *f = &model->feet[foot];
+  ambulo__foot_outline outline = {.is_point = ambulo__foot_is_point(f)};
   double origin[3], ahead[2];
   ambulo__neutral_point(model, f->heel_center, origin);
   project(model, f->toe_center, origin, ahead);
@@ -217,7 +217,8 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
   }
   add_arcs(model, f, origin, ahead, &outline);
   for (int side = 0; side < 2; side++) add_corner(model, f->heel[side], 1, origin, ahead, &outline);
-  for (int side = 0; side < 2; side++) add_corner(model, f->toe[side], 0, origin, ahead, &outline);
+  for (int side = 0; side < 2 && !outline.is_point; side++)
+    add_corner(model, f->toe[side], 0, origin, ahead, &outline);
   add_ends(model, foot, &outline);
   return outline;
 }

@@ -16,6 +16,10 @@
  * Of an arc that rolls, the centre of pressure is within arc_pressure of under its centre, and the
  * allowance goes with the load (contact/curved.h).
  *
+ * Point feet: all moments are shares of one, m_c = w_c l^2 eta (kernel_contacts.h), so that rows of
+ * pressure and of free moment on the foot with the largest weight speak for the others. Said by
+ * each they depend on each other, and no method likes that.
+ *
  * A contact without weight carries exactly nothing and has no rows.
  */
 #include "contact/row_families.h"
@@ -47,6 +51,7 @@ static const double least_arc_load = 0.1;
 typedef struct one {
   const ambulo__gait_context *context;
   int node, planar;
+  int moments;   /* 1: its moments are limited here, and not by what another says */
   double weight; /* W, N */
   const char *subject;
   int force, moment; /* first channels */
@@ -152,12 +157,37 @@ static void contact_rows(const one *c) {
     else
       cone_row(c);
   }
+  if (!c->moments) return;
   if (r->pressure) pressure_rows(c);
   if (isnan(r->free_moment) || c->planar) return;
   ambulo__linear form = {.count = 0};
   ambulo__linear_add(&form, c->moment, c->load.frame.up, 1.0 / c->weight);
   bounded(c, AMBULO__KIND_FREE_MOMENT, "to the right", "to the left", AMBULO__METRES, &form,
           -r->free_moment, r->free_moment);
+}
+
+/* a contact of a slot at the node: what holds there, or what ends there */
+static const ambulo_contact *contact_of(const ambulo__gait_context *context, int node, int effector,
+                                        int i) {
+  ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_FORCES, node, effector);
+  if (i >= phases.count || phases.contact[i] < 0) return NULL;
+  return &context->definition->contacts[phases.contact[i]];
+}
+
+/* 1 unless a point foot's moments are what another point foot, with more weight, says */
+static int says_moments(const one *c, const ambulo__foot_outline *outlines,
+                        const ambulo__slots *slots, int slot, int i) {
+  const ambulo__gait_context *context = c->context;
+  const ambulo_problem_definition *d = context->definition;
+  if (!slots->all_points) return 1;
+  for (int other = 0; other < slots->count; other++) {
+    const ambulo_contact *contact = contact_of(context, c->node, slots->effector[other], i);
+    if (other == slot || !contact) continue;
+    double weight =
+        ambulo__contact_load_at(d, outlines, slots, other, contact, context->times[c->node]).weight;
+    if (weight > c->load.weight || (weight == c->load.weight && other < slot)) return 0;
+  }
+  return 1;
 }
 
 /* on a grid on events also those of the contact that ends at the node */
@@ -176,6 +206,7 @@ static void slot_rows(one *c, const ambulo__foot_outline *outlines, const ambulo
     c->load =
         ambulo__contact_load_at(d, outlines, slots, slot, &d->contacts[phases.contact[i]], time);
     c->table->before = ambulo__phase_is_before(context, i);
+    c->moments = says_moments(c, outlines, slots, slot, i);
     if (c->load.loaded && c->load.weight > AMBULO__LEAST_WEIGHT) contact_rows(c);
   }
   c->table->before = 0;

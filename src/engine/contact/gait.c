@@ -110,12 +110,15 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
     int foot = step % 2 == 0 ? gait->first_foot : 1 - gait->first_foot;
     double strike = ambulo__gait_strike(gait, step);
     double side = foot == left ? 0.5 : -0.5;
+    int is_point =
+        ambulo__foot_is_point(&model->feet[foot]); /* stands on it from strike to toe-off */
     for (int mode = AMBULO_CONTACT_HEEL; mode <= AMBULO_CONTACT_TOE; mode++) {
+      if (is_point && mode != AMBULO_CONTACT_FLAT) continue;
       ambulo_contact contact = {
           .foot = foot,
           .mode = mode == AMBULO_CONTACT_HEEL ? landing : (ambulo_contact_mode)mode,
-          .from = strike + fraction[mode - AMBULO_CONTACT_HEEL] * stride,
-          .to = strike + fraction[mode - AMBULO_CONTACT_HEEL + 1] * stride,
+          .from = strike + fraction[is_point ? 0 : mode - AMBULO_CONTACT_HEEL] * stride,
+          .to = strike + fraction[is_point ? 3 : mode - AMBULO_CONTACT_HEEL + 1] * stride,
           .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width},
           .patch = -1};
       if (contact.to - contact.from > AMBULO__INSTANT) write_span(&w, contact);

@@ -118,7 +118,7 @@ static ambulo_status check_driven(const ambulo_model *m, int i, const ambulo_dev
 static ambulo_status check_movers(const ambulo_model *m, int i, const ambulo_device *v, int link,
                                   int common, int *movers, ambulo_diagnostics *list) {
   for (; link != common; link = m->links[link].parent) {
-    int coordinate = m->links[link].coordinate;
+    int coordinate = ambulo__moved_by(m, link);
     if (coordinate < 0) continue;
     ambulo_status status = check_driven(m, i, v, coordinate, list);
     if (status) return status;
@@ -249,6 +249,16 @@ static ambulo_status check_hands(const ambulo_problem_definition *d, int i,
     return HOLD_CHECK_REFUSE(
         list, "load '%s' has an inertia or a center, but one hand, '%s'; expected two hands",
         h->name, one->name);
+  for (int hand = 0; hand < 1 + pair; hand++) {
+    const ambulo_point *point = &d->model->points[h->hand[hand]];
+    int link = point->link;
+    while (link >= 0 && d->model->links[link].coupled_to < 0) link = d->model->links[link].parent;
+    if (link >= 0)
+      return HOLD_CHECK_REFUSE(list,
+                               "load '%s' is held by '%s', which hangs on the coupled joint '%s'; "
+                               "expected points that no coupled joint carries",
+                               h->name, point->name, d->model->links[link].name);
+  }
   return AMBULO_OK;
 }
 

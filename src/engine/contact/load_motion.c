@@ -53,7 +53,7 @@ int ambulo__path_common(const ambulo_model *model, const int link[2]) {
 }
 
 static int moves(const ambulo_link *link) {
-  return link->coordinate >= 0;
+  return link->type != AMBULO_FIXED;
 }
 
 /* the link of the path at `depth` */
@@ -76,11 +76,15 @@ ambulo_status ambulo__path_create(const ambulo_model *model, int common, int lin
   double *frame = path->start;
   memcpy(frame, identity, sizeof identity);
   for (int depth = first; depth <= last; depth++) {
-    const ambulo_link *next = ambulo_model_link(model, link_at(model, link, depth));
+    const int index = link_at(model, link, depth);
+    const ambulo_link *next = ambulo_model_link(model, index);
     if (moves(next)) {
       ambulo__path_joint *joint = &path->joints[path->count++];
-      *joint = (ambulo__path_joint){
-          next->coordinate, next->type == AMBULO_REVOLUTE, next->theta, next->d, {0}};
+      *joint = (ambulo__path_joint){.coordinate = ambulo__moved_by(model, index),
+                                    .turns = next->type == AMBULO_REVOLUTE,
+                                    .angle = next->theta,
+                                    .offset = next->d};
+      if (next->coupled_to >= 0) joint->coupling = &model->couplings[index];
       frame = joint->after;
       memcpy(frame, identity, sizeof identity);
     } else {
@@ -96,6 +100,16 @@ void ambulo__path_free(const ambulo_allocator *allocator, ambulo__device_path *p
   ambulo__free(allocator, path->joints);
 }
 
+double ambulo__path_value(const ambulo__path_joint *joint, double q,
+                          double slope[AMBULO__COUPLING_SLOPES]) {
+  if (joint->coupling) return ambulo__coupling_value(joint->coupling, q, slope);
+  if (slope) {
+    slope[0] = 1.0;
+    slope[1] = slope[2] = 0.0;
+  }
+  return q;
+}
+
 void ambulo__path_follow(double frame[12], const ambulo__path_joint *joint, double q) {
   follow_joint(frame, joint->angle + (joint->turns ? q : 0.0),
                joint->offset + (joint->turns ? 0.0 : q));
@@ -109,7 +123,7 @@ void ambulo__path_point(const ambulo__device_path *path, const double *q, double
   memcpy(frame, path->start, sizeof frame);
   for (int i = 0; i < path->count; i++) {
     const ambulo__path_joint *joint = &path->joints[i];
-    double value = q[joint->coordinate * AMBULO__LANES];
+    double value = ambulo__path_value(joint, q[joint->coordinate * AMBULO__LANES], NULL);
     for (int k = 0; k < 3; k++) {
       axis[3 * i + k] = frame[4 * k + 2];
       slope[3 * i + k] = frame[4 * k + 3];

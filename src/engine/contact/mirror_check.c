@@ -13,6 +13,7 @@
 #include "contact/contacts.h"
 #include "contact/devices.h"
 #include "contact/row_families.h"
+#include "base/numtext.h"
 #include "model/mirror_image.h"
 #include "model/neutral_pose.h"
 

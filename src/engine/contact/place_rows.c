@@ -147,7 +147,7 @@ static void contact_rows(const ambulo__gait_context *context, int node,
   place_row(context, node, point, "forward", frame.forward, place, table);
   if (!outline->moves_sideways) return;
   place_row(context, node, point, "left", frame.left, place, table);
-  if (!ambulo__mode_is_flat(contact->mode)) return;
+  if (!ambulo__mode_is_flat(contact->mode) || outline->is_point) return;
   int toe = context->model->feet[contact->foot].toe_center;
   place_row(context, node, toe, "heading", frame.left, place, table);
 }

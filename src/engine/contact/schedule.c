@@ -49,6 +49,11 @@ static ambulo_status check_contact(const ambulo_problem_definition *definition, 
                   "contacts[%d]: the mode of foot '%s' is %s (got %d); expected heel, flat or toe",
                   index, name, c->mode ? "unknown" : "not set", (int)c->mode);
   }
+  if (c->foot >= 0 && c->mode != AMBULO_CONTACT_FLAT &&
+      ambulo__foot_is_point(ambulo_model_foot(definition->model, c->foot))) {
+    return REFUSE(list, NULL, "contacts[%d]: the point foot '%s' is %s; expected mode flat", index,
+                  name, ambulo__mode_of(c->mode)->posture);
+  }
   if (!isfinite(c->place[0]) || !isfinite(c->place[1]) || !isfinite(c->place[2])) {
     return REFUSE(list, NULL,
                   "contacts[%d]: %s '%s' has the %s (%g, %g, %g) m; expected finite lengths", index,

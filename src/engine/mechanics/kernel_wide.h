@@ -57,6 +57,12 @@ AMBULO__INLINE void store(double *at, wide value) {
   *(wide *)at = value;
 }
 
+AMBULO__INLINE wide root(wide x) {
+  wide y;
+  for (int lane = 0; lane < AMBULO__WIDTH; lane++) y[lane] = __builtin_sqrt(x[lane]);
+  return y;
+}
+
 AMBULO__INLINE wide3 load3(const double *at) {
   return (wide3){load(at), load(at + AMBULO__LANES), load(at + 2 * AMBULO__LANES)};
 }

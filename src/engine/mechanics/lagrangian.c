@@ -14,6 +14,8 @@
  *   tau_i = tr[ dA_i/dq D_i ] - g^T dA_i/dq E_i,  dA_i/dq = A_p T_i'               (10)
  *   D_i = J_i C_i^T + sum over children T_c D_c                                    (11)
  *   E_i = m_i r_i + sum over children T_c E_c                                      (12)
+ *   tau_i += a_i qdd_i + b_i qd_i + c_i qd_i / sqrt(qd_i^2 + v^2)                  (10 D)
+ * The last is what the joint's drive adds (ambulo_coordinate): armature a, damping b, friction c.
  *
  * The root wrench is computed from (7)-(9), not from (10)-(12): with c the centre of mass and
  * K = R S Rdd^T, S the second moment of mass about c, so that the rate of angular momentum is
@@ -75,6 +77,33 @@ static scalar component(const double *values, int is_complex, int index) {
   return values[index];
 }
 
+/* A joint's value and rates: those of its coordinate, or, of a coupled one,
+ *   theta = f(q),  theta_d = f' qd,  theta_dd = f' qdd + f'' qd^2 */
+typedef struct joint_motion {
+  scalar q, v, w, slope; /* slope: f' */
+} joint_motion;
+
+/* (K.1) */
+static joint_motion couple(const ambulo__coupling *coupling, scalar q, scalar v, scalar w) {
+  const ambulo__piece *piece = ambulo__coupling_piece(coupling, creal(q));
+  const double *c = piece->c;
+  scalar t = q - piece->at;
+  scalar slope = c[1] + t * (2 * c[2] + t * (3 * c[3] + t * 4 * c[4]));
+  scalar bend = 2 * c[2] + t * (6 * c[3] + t * 12 * c[4]);
+  scalar value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
+  return (joint_motion){value, slope * v, slope * w + bend * v * v, slope};
+}
+
+static joint_motion motion_of(const ambulo_model *model, int link, int is_complex, const double *q,
+                              const double *qd, const double *qdd) {
+  int k = ambulo__moved_by(model, link);
+  if (k < 0) return (joint_motion){0, 0, 0, 0};
+  scalar x = component(q, is_complex, k), v = component(qd, is_complex, k);
+  scalar w = component(qdd, is_complex, k);
+  if (model->links[link].coordinate >= 0) return (joint_motion){x, v, w, 1};
+  return couple(&model->couplings[link], x, v, w);
+}
+
 /* (4) (5) (6) for all links, parents first. */
 static void forward(const ambulo_model *model, int is_complex, const double *q, const double *qd,
                     const double *qdd, link_state *states) {
@@ -85,10 +114,10 @@ static void forward(const ambulo_model *model, int is_complex, const double *q, 
     link_state *s = &states[i];
     const link_state *p = link->parent >= 0 ? &states[link->parent] : NULL;
     const matrix *a = p ? &p->a : &identity, *b = p ? &p->b : &zero, *c = p ? &p->c : &zero;
-    int k = link->coordinate;
-    scalar v = k >= 0 ? component(qd, is_complex, k) : 0;
-    scalar w = k >= 0 ? component(qdd, is_complex, k) : 0;
-    transform(link, k >= 0 ? component(q, is_complex, k) : 0, s);
+    joint_motion joint = motion_of(model, i, is_complex, q, qd, qdd);
+    scalar v = joint.v, w = joint.w;
+    s->slope = joint.slope;
+    transform(link, joint.q, s);
     s->a = s->b = s->c = zero;
     add_product(&s->a, 1, a, &s->t, 1); /* (4) */
     add_product(&s->b, 1, b, &s->t, 1); /* (5) */
@@ -157,14 +186,28 @@ static scalar joint_force(const ambulo_model *model, const link_state *p, const 
   return tau;
 }
 
-/* Eqs. (10)-(12), children first. */
+/* Eqs. (10)-(12), children first; (K.2) each coupled joint adds f' times its own force. */
 static void backward(const ambulo_model *model, link_state *states, scalar *tau) {
   for (int i = 0; i < model->link_count; i++) start_backward(&model->links[i], &states[i]);
+  for (int k = 0; k < model->coordinate_count; k++) tau[k] = 0;
   for (int i = model->link_count - 1; i >= 0; i--) {
     const ambulo_link *link = &model->links[i];
     link_state *p = link->parent >= 0 ? &states[link->parent] : NULL;
-    if (link->coordinate >= 0) tau[link->coordinate] = joint_force(model, p, &states[i]);
+    int k = ambulo__moved_by(model, i);
+    if (k >= 0) tau[k] += states[i].slope * joint_force(model, p, &states[i]);
     if (p) add_to_parent(p, &states[i]);
+  }
+}
+
+/* (10 D) */
+static void add_drives(const ambulo_model *model, int is_complex, const double *qd,
+                       const double *qdd, scalar *tau) {
+  for (int i = 0; i < model->coordinate_count; i++) {
+    const ambulo_coordinate *c = &model->coordinates[i];
+    scalar rate = component(qd, is_complex, i);
+    double v = ambulo__friction_speed(c);
+    tau[i] += c->armature * component(qdd, is_complex, i) + c->damping * rate;
+    if (c->friction > 0.0) tau[i] += c->friction * rate / csqrt(rate * rate + v * v);
   }
 }
 
@@ -230,6 +273,7 @@ ambulo_status ambulo__lagrangian(int is_complex, const ambulo_model *model, cons
   scalar total[6] = {0};
   forward(model, is_complex, q, qd, qdd, states);
   backward(model, states, forces);
+  add_drives(model, is_complex, qd, qdd, forces);
   for (int i = 0; i < model->link_count; i++) {
     add_wrench(model, &model->links[i], &states[i], total);
   }

@@ -29,6 +29,7 @@ typedef struct matrix {
 
 typedef struct link_state {
   matrix t, t1, t2;     /* T, T', T'' */
+  scalar slope;         /* of the joint's value by the coordinate that moves it */
   matrix a, b, c;       /* A, B, C */
   scalar d[4][3], e[4]; /* D, E */
 } link_state;

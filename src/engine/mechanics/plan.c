@@ -12,7 +12,7 @@
  * that axes stay aligned along the chain; Trans_z may be done before the turn, and is where that
  * lets more axes share an origin. Numbers that stem from cos(pi/2) are rounded to zero.
  */
-#include "mechanics/plan_layout.h"
+#include "mechanics/plan_coupled.h"
 
 #include <math.h>
 #include <string.h>
@@ -130,8 +130,13 @@ static void compile_prismatic(ambulo__joint *joint, ambulo__placing *placing,
   place_fixed(placing, link);
 }
 
+static int has_drive(const ambulo_coordinate *c) {
+  return c->armature != 0 || c->damping != 0 || c->friction != 0;
+}
+
 /* (DH): Compiles one link. Parents come first, so placings[link->parent] is known. */
-static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__placing *placing) {
+static void compile_link(ambulo__plan *plan, const ambulo_model *model, const ambulo_link *link,
+                         ambulo__placing *placing) {
   if (link->type == AMBULO_FIXED) {
     place_fixed(placing, link);
     return;
@@ -139,12 +144,36 @@ static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__pl
   ambulo__joint *joint = &plan->joints[link->coordinate];
   joint->parent = placing->frame;
   joint->revolute = link->type == AMBULO_REVOLUTE;
+  joint->driven = has_drive(&model->coordinates[link->coordinate]);
   if (joint->revolute) {
     compile_revolute(joint, placing, link);
   } else {
     compile_prismatic(joint, placing, link);
   }
   placing->frame = link->coordinate + 1;
+}
+
+/* Joints that carry the whole body on contacts have no row, and no drive (ambulo__plan_undriven).
+ * The entry of jqd of a slider that stands still is nobody's. */
+static ambulo_status compile_drives(ambulo__plan *plan, const ambulo_model *model) {
+  plan->drives = ambulo__alloc(&plan->allocator, (size_t)plan->coordinates, sizeof *plan->drives);
+  if (!plan->drives) return AMBULO_E_MEMORY;
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo_coordinate *c = &model->coordinates[k];
+    const ambulo__joint *joint = &plan->joints[k];
+    double speed = ambulo__friction_speed(c);
+    int above = plan->ancestor_start[k + 1] - plan->ancestor_start[k];
+    if (!joint->driven || joint->torque_row == AMBULO__ROW_VANISHES) continue;
+    plan->drives[plan->drive_count++] =
+        (ambulo__drive){.input = k * AMBULO__LANES,
+                        .diagonal = (plan->start[k] + above) * AMBULO__LANES,
+                        .alone = !joint->revolute && joint->still,
+                        .armature = c->armature,
+                        .damping = c->damping,
+                        .friction = c->friction,
+                        .smoothing = speed * speed};
+  }
+  return AMBULO_OK;
 }
 
 static void set_fixed_load(ambulo__plan *plan, const ambulo__mass *fixed) {
@@ -204,18 +233,50 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
     const ambulo_link *link = &model->links[i];
     ambulo__placing world = {0, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
     placings[i] = link->parent >= 0 ? placings[link->parent] : world;
-    compile_link(plan, link, &placings[i]);
+    compile_link(plan, model, link, &placings[i]);
   }
   collect_bodies(plan, model, placings, masses);
   collect_points(plan, model, placings);
   if (footing->count > 0 && ambulo__plan_carriers(plan, footing, placings)) goto done;
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
+  if (status == AMBULO_OK) status = compile_drives(plan, model);
   if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_local_build(plan);
 done:
   ambulo__free(allocator, placings);
   ambulo__free(allocator, masses);
+  return status;
+}
+
+static ambulo_status create(const ambulo_model *model, const ambulo__footing *footing,
+                            const ambulo_allocator *allocator, ambulo__plan **out);
+
+/* The plan of a body with coupled joints, around that of the body with a coordinate for every
+ * joint. */
+static ambulo_status create_coupled(const ambulo_model *model, const ambulo__footing *footing,
+                                    ambulo__plan *plan) {
+  const ambulo_allocator *a = &plan->allocator;
+  ambulo_model open = *model;
+  plan->coupled = ambulo__alloc(a, 1, sizeof *plan->coupled);
+  open.links = ambulo__alloc(a, (size_t)model->link_count, sizeof *open.links);
+  size_t joints = (size_t)model->coordinate_count + (size_t)model->coupled_count;
+  open.coordinates = ambulo__alloc(a, joints, sizeof *open.coordinates);
+  open.coordinate_count = open.coupled_count = 0;
+  ambulo_status status =
+      plan->coupled && open.links && open.coordinates ? AMBULO_OK : AMBULO_E_MEMORY;
+  for (int i = 0; !status && i < model->link_count; i++) {
+    const int own = model->links[i].coordinate;
+    open.links[i] = model->links[i];
+    if (open.links[i].type == AMBULO_FIXED) continue;
+    open.coordinates[open.coordinate_count] =
+        own >= 0 ? model->coordinates[own] : ambulo_coordinate_default(); /* without a drive */
+    open.links[i].coordinate = open.coordinate_count++;
+  }
+  if (!status) status = create(&open, footing, a, &plan->coupled->open);
+  if (!status) status = ambulo__coupled_plan_build(plan, model, footing);
+  ambulo__free(a, open.links);
+  ambulo__free(a, open.coordinates);
   return status;
 }
 
@@ -226,6 +287,12 @@ static ambulo_status create(const ambulo_model *model, const ambulo__footing *fo
   ambulo__plan *plan = ambulo__alloc(&memory, 1, sizeof *plan);
   if (!plan) return AMBULO_E_MEMORY;
   plan->allocator = memory;
+  if (model->coupled_count > 0) {
+    status = create_coupled(model, footing, plan);
+    if (status != AMBULO_OK) goto failed;
+    *out = plan;
+    return AMBULO_OK;
+  }
   plan->coordinates = model->coordinate_count;
   plan->points = model->point_count;
   memcpy(plan->gravity, model->gravity, sizeof plan->gravity);
@@ -272,6 +339,8 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo_allocator memory = plan->allocator;
   ambulo__plan_steps_free(plan);
   ambulo__plan_local_free(plan);
+  if (plan->coupled) ambulo__plan_free(plan->coupled->open);
+  ambulo__coupled_plan_free(plan);
   ambulo__free(&memory, plan->frames);
   ambulo__free(&memory, plan->joints);
   ambulo__free(&memory, plan->body);
@@ -284,6 +353,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->rate_start);
   ambulo__free(&memory, plan->by_qdd);
   ambulo__free(&memory, plan->roots);
+  ambulo__free(&memory, plan->drives);
   ambulo__free(&memory, plan);
 }
 
@@ -293,7 +363,25 @@ int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {
   return plan->joints[coordinate].torque_row == AMBULO__ROW_VANISHES;
 }
 
+int ambulo__plan_undriven(const ambulo__plan *plan) {
+  if (plan->coupled) {
+    int joint = ambulo__plan_undriven(plan->coupled->open);
+    return joint < 0 ? -1 : plan->coupled->coordinate[joint];
+  }
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->driven && joint->torque_row == AMBULO__ROW_VANISHES) return k;
+  }
+  return -1;
+}
+
 size_t ambulo__plan_take_wrench(ambulo__plan *plan) {
+  struct ambulo__coupled_plan *c = plan->coupled;
+  if (c) {
+    size_t at = ambulo__plan_take_wrench(c->open);
+    plan->scratch = (size_t)c->open_at + ambulo__plan_scratch(c->open);
+    return (size_t)c->open_at + at;
+  }
   plan->taken_at = plan->scratch;
   plan->scratch += (size_t)12 * AMBULO__LANES;
   return plan->taken_at;

@@ -39,6 +39,9 @@ ambulo_status ambulo__plan_create_contacts(const ambulo_model *model, const int 
 size_t ambulo__plan_take_wrench(ambulo__plan *plan);
 /* 1: tau of the coordinate vanishes identically, since it carries the whole body on contacts. */
 int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate);
+/* A coordinate whose tau vanishes identically although its drive has inertia, damping or friction,
+ * which the kernels leave out; -1: none. */
+int ambulo__plan_undriven(const ambulo__plan *plan);
 void ambulo__plan_free(ambulo__plan *plan); /* accepts NULL */
 
 int ambulo__plan_coordinates(const ambulo__plan *plan);

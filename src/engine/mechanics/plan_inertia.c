@@ -143,8 +143,8 @@ void ambulo__mass_factor(const ambulo__mass *mass, ambulo__rigid_body *body) {
  * them: tau = s . (F - F_0), with F_0 the weight, constant, of the bodies fixed to the world. If s
  * is plus or minus a world axis k, and stands still, then the row is plus or minus that of F_k. A
  * chain of such joints, beginning at the world, has no entries: the root of most bodies. (Behind
- * another joint, as an oblique one, they keep their rows, so that kernels find those without
- * entries first among the ancestors.)
+ * another joint, as an oblique one or one with a drive, they keep their rows, so that kernels find
+ * those without entries first among the ancestors.)
  *
  * Contacts: plan_steps.c.
  */
@@ -175,7 +175,7 @@ static void write_chain(const ambulo__plan *plan, int coordinate, int *out) {
 static int follows_force(const ambulo__plan *plan, int k) {
   const ambulo__joint *joint = &plan->joints[k];
   int above = parent_of(plan, k);
-  if (plan->contacts > 0 || joint->revolute || joint->turned) return 0;
+  if (plan->contacts > 0 || joint->revolute || joint->turned || joint->driven) return 0;
   if (above >= 0 && plan->joints[above].torque_row != AMBULO__ROW_FOLLOWS) return 0;
   for (int i = 0; i < plan->bodies; i++) {
     if (!is_ancestor(plan, k, plan->body[i].frame - 1)) return 0;

@@ -70,6 +70,15 @@ typedef struct ambulo__steps {
 /* Vectors of what kernel_subtree.h sums up. */
 #define AMBULO__SUBTREE 27
 
+/* What a drive adds to tau of its coordinate, and to nothing else (kernel_drives.h). */
+typedef struct ambulo__drive {
+  int input;                          /* entries of the coordinate in the arrays of the caller */
+  int diagonal;                       /* its own column in its row of jqd and jqdd */
+  int alone;                          /* nothing else is ever written to that entry of jqd */
+  double armature, damping, friction; /* SI units */
+  double smoothing;                   /* v^2 of the dry friction */
+} ambulo__drive;
+
 typedef struct ambulo__frame {
   int subtree_at;   /* load and inertia (27, kernel_subtree.h) of the body and of finished branches;
                        the world's: of all that moves; -1: nothing but those of the only child */
@@ -90,6 +99,7 @@ typedef struct ambulo__joint {
   double turn[9]; /* rows; turned frame in parent frame */
   int axis;       /* which column of the (turned) frame is the axis */
   int contacts;   /* those that it carries, a bit each */
+  int driven;     /* its drive has inertia, damping or friction: tau is more than the bodies' */
   int torque_row; /* ambulo__torque_row */
   int factors;    /* Jacobian: its factors in jq (plan_contacts.c), if the ground reacts */
   int motion_at;  /* Jacobian: S, 2 Sd and Sdd (18, kernel_world.h) */
@@ -163,8 +173,12 @@ struct ambulo__plan {
                           that row has none */
   int contact_factors; /* the contacts' factors in jq (plan_contacts.c) */
 
+  ambulo__drive *drives; /* [drive_count]: of the coordinates that have one */
+  int drive_count;
+
   ambulo__steps steps;
   ambulo__local_plan local;
+  struct ambulo__coupled_plan *coupled; /* plan_coupled.h; NULL: every joint has a coordinate */
 };
 
 /* the steps of compiling a plan, in order. Private to plan*.c. */

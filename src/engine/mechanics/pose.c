@@ -16,6 +16,9 @@
  *
  * The last because dR/dq_i = a x R and da/dq_i = 0, and v' holds qd_i x'_i already. Velocity is
  * linear in qd: its slopes by qd are those of x by q.
+ *
+ * A coupled joint stands at f(q_c) and moves at f' qd_c. So x'_c gains f' x'_i, and v'_c gains
+ * f' v'_i + f'' qd_c x'_i, each beside what it has from joints further out that q_c moves too.
  */
 #include "mechanics/pose.h"
 
@@ -50,7 +53,7 @@ void ambulo__pose_at(ambulo__pose *pose, const double *q) {
   for (int i = 0; i < pose->model->link_count; i++) {
     const ambulo_link *link = &pose->model->links[i];
     double t[12], *frame = pose->frames + 12 * (size_t)i;
-    link_transform(link, link->coordinate >= 0 ? q[link->coordinate] : 0.0, t);
+    link_transform(link, ambulo__joint_value(pose->model, i, q, NULL), t);
     if (link->parent >= 0) {
       multiply(pose->frames + 12 * (size_t)link->parent, t, frame);
     } else {
@@ -111,14 +114,23 @@ static void rotate(const double *t, double *x, int stride) {
   for (int r = 0; r < 3; r++) x[r * stride] = t[4 * r] * a + t[4 * r + 1] * b + t[4 * r + 2] * c;
 }
 
+/* 1: a link further out on the way to `link` is moved by the same coordinate as link k. */
+static int is_carried(const ambulo_model *model, int link, int k) {
+  const int c = ambulo__moved_by(model, k);
+  if (model->coupled_count == 0) return 0;
+  for (; link != k; link = model->links[link].parent)
+    if (ambulo__moved_by(model, link) == c) return 1;
+  return 0;
+}
+
 /* Slopes by the coordinates beyond link i, up to the point's own link, carried to i's parent. turn:
- * qd_i of a revolute joint. */
+ * rate of a revolute joint. */
 static void carry_slopes(const ambulo_model *model, int link, int i, const double *t, double turn,
                          const ambulo_point_motion *to) {
   const int d = model->coordinate_count;
   for (int k = link; k != i; k = model->links[k].parent) {
-    const int c = model->links[k].coordinate;
-    if (c < 0) continue;
+    const int c = ambulo__moved_by(model, k);
+    if (c < 0 || is_carried(model, link, k)) continue;
     double *x = to->position_q + c;
     rotate(t, x, d);
     if (!to->velocity_q) continue;
@@ -129,21 +141,28 @@ static void carry_slopes(const ambulo_model *model, int link, int i, const doubl
   }
 }
 
-/* x and v from link i's frame to that of its parent, and the slopes by its own coordinate */
-static void pass_joint(const ambulo_link *link, int d, const double *t, double rate, double x[3],
-                       double v[3], const ambulo_point_motion *to) {
-  const int turns = link->type == AMBULO_REVOLUTE, c = link->coordinate;
+/* A joint as it stands and moves. */
+typedef struct passed {
+  int turns, coordinate; /* that moves it; -1: none does */
+  double rate;           /* f' qd */
+  double slope, drift;   /* f', f'' qd */
+} passed;
+
+/* x and v from a link's frame to that of its parent, and the slopes by what moves its joint */
+static void pass_joint(const passed *joint, int d, const double *t, double x[3], double v[3],
+                       const ambulo_point_motion *to) {
+  const int turns = joint->turns, c = joint->coordinate;
   rotate(t, x, 1);
   rotate(t, v, 1);
   for (int r = 0; r < 3; r++) x[r] += t[4 * r + 3];
   if (c < 0) return;
   const double by_q[3] = {turns ? -x[1] : 0.0, turns ? x[0] : 0.0, turns ? 0.0 : 1.0};
-  for (int r = 0; r < 3; r++) v[r] += rate * by_q[r];
-  for (int r = 0; r < 3 && to->position_q; r++) to->position_q[r * d + c] = by_q[r];
+  for (int r = 0; r < 3; r++) v[r] += joint->rate * by_q[r];
+  for (int r = 0; r < 3 && to->position_q; r++) to->position_q[r * d + c] += joint->slope * by_q[r];
   if (!to->velocity_q) return;
-  to->velocity_q[c] = turns ? -v[1] : 0.0;
-  to->velocity_q[c + d] = turns ? v[0] : 0.0;
-  to->velocity_q[c + 2 * d] = 0.0;
+  const double turned[3] = {turns ? -v[1] : 0.0, turns ? v[0] : 0.0, 0.0};
+  for (int r = 0; r < 3; r++)
+    to->velocity_q[c + r * d] += joint->slope * turned[r] + joint->drift * by_q[r];
 }
 
 ambulo_status ambulo_model_point_motion(const ambulo_model *model, int link, const double local[3],
@@ -162,13 +181,13 @@ ambulo_status ambulo_model_point_motion(const ambulo_model *model, int link, con
   double x[3] = {local[0], local[1], local[2]}, v[3] = {0.0, 0.0, 0.0};
   for (int i = link; i >= 0; i = model->links[i].parent) {
     const ambulo_link *at = &model->links[i];
-    const int moves = at->coordinate >= 0;
-    const double rate = moves ? qd[at->coordinate] : 0.0;
-    double t[12];
-    link_transform(at, moves ? q[at->coordinate] : 0.0, t);
-    pass_joint(at, d, t, rate, x, v, &to);
-    if (to.position_q)
-      carry_slopes(model, link, i, t, at->type == AMBULO_REVOLUTE ? rate : 0.0, &to);
+    const int c = ambulo__moved_by(model, i);
+    double t[12], f[AMBULO__COUPLING_SLOPES];
+    link_transform(at, ambulo__joint_value(model, i, q, f), t);
+    const double speed = c >= 0 ? qd[c] : 0.0;
+    const passed joint = {at->type == AMBULO_REVOLUTE, c, f[0] * speed, f[0], f[1] * speed};
+    if (to.position_q) carry_slopes(model, link, i, t, joint.turns ? joint.rate : 0.0, &to);
+    pass_joint(&joint, d, t, x, v, &to);
   }
   if (to.position) memcpy(to.position, x, sizeof x);
   if (to.velocity) memcpy(to.velocity, v, sizeof v);

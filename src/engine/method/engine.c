@@ -30,7 +30,7 @@ static double negligible_objective(const ambulo__engine *e, const double *zero, 
   if (ambulo__evaluate(e->workspace, zero)) return -1.0;
   s->at_rest = fabs(e->workspace->objective);
   for (int t = 0; t < d->term_count; t++) {
-    if (ambulo__is_user_term(&d->terms[t]) || d->terms[t].kind == AMBULO_TRACKING) return -1.0;
+    if (ambulo__is_user_term(&d->terms[t]) || ambulo__term_follows(&d->terms[t])) return -1.0;
   }
   for (int t = 0; t < d->term_count; t++) {
     s->negligible_term[t] = tolerance * e->workspace->term_value[t];

@@ -58,9 +58,13 @@ static void stretch(double *lengths, int count, double longer) {
   for (int i = 0; i < count; i++) lengths[i] *= longer;
 }
 
-static void resize_coordinate(ambulo_coordinate *c, double longer, double moment, double force) {
+static void resize_coordinate(ambulo_coordinate *c, double mass, double longer, double moment,
+                              double force) {
   int turns = c->type == AMBULO_REVOLUTE;
   stretch(c->torque, 2, turns ? moment : force);
+  c->armature *= turns ? mass * longer * longer : mass;
+  c->damping *= turns ? moment : force / longer;
+  c->friction *= turns ? moment : force;
   if (turns) return;
   stretch(c->range, 2, longer);
   stretch(c->speed, 2, longer);
@@ -80,6 +84,24 @@ static void stretch_places(ambulo_model *m, double longer) {
   }
 }
 
+/* f of a coordinate x, either of them a length: where x is, x becomes longer too */
+static void stretch_functions(ambulo_model *m, double longer) {
+  double *at = m->splines;
+  for (int i = 0; i < m->link_count; i++) {
+    ambulo_link *link = &m->links[i];
+    if (link->coupled_to < 0) continue;
+    double value = link->type == AMBULO_PRISMATIC ? longer : 1.0;
+    double by = m->coordinates[link->coupled_to].type == AMBULO_PRISMATIC ? longer : 1.0;
+    for (int k = 0; k < link->spline_count; k++, at += 2) {
+      at[0] *= by;
+      at[1] *= value;
+    }
+    double factor = value;
+    for (int k = 0; k < AMBULO__COUPLING_TERMS; k++, factor /= by) link->polynomial[k] *= factor;
+  }
+  ambulo__model_couple(m);
+}
+
 /* masses are shares of M, lengths of H, inertias of M H^2, torques of M g H, forces of M g */
 void ambulo__model_resize(ambulo_model *m, double heavier, double longer) {
   ambulo__model_units *u = &m->units;
@@ -95,8 +117,9 @@ void ambulo__model_resize(ambulo_model *m, double heavier, double longer) {
     stretch(link->com, 3, length);
     stretch(link->inertia, 6, mass * length * length);
   }
+  stretch_functions(m, length);
   for (int i = 0; i < m->coordinate_count; i++)
-    resize_coordinate(&m->coordinates[i], length, moment, force);
+    resize_coordinate(&m->coordinates[i], mass, length, moment, force);
   stretch_places(m, length);
   m->mass *= mass;
   m->stature *= longer;

@@ -1,4 +1,5 @@
-/* model/contact_check.c - coordinates, points, feet and patches: ranges, pairs, references. */
+/* model/contact_check.c - coordinates, points, feet and patches: ranges, drives, pairs,
+ * references. */
 #include "model/model_check.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ static ambulo__place place_of_coordinate(const ambulo__checker *c, int index) {
 
 static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, int index) {
   for (int i = 0, seen = 0; i < d->link_count; i++) {
-    if (d->links[i].type != AMBULO_FIXED && seen++ == index) return d->links[i].type;
+    if (ambulo__link_has_coordinate(&d->links[i]) && seen++ == index) return d->links[i].type;
   }
   return AMBULO_FIXED;
 }
@@ -64,6 +65,76 @@ static void check_default(ambulo__checker *c, int index) {
                             ambulo__number_text(self->range[1]).text);
 }
 
+/* ------------------------------------------------------------------ drives */
+
+static int link_of_coordinate(const ambulo_model_definition *d, int index) {
+  int link = -1;
+  for (int i = 0, seen = 0; i < d->link_count && link < 0; i++) {
+    if (d->links[i].type != AMBULO_FIXED && seen++ == index) link = i;
+  }
+  return link;
+}
+
+/* the next link toward the world; -1: there is none. Links may still form a cycle, so that whoever
+ * climbs counts. */
+static int above(const ambulo_model_definition *d, int link) {
+  int parent = d->links[link].parent;
+  return parent < d->link_count ? parent : -1;
+}
+
+static int carries_every_mass(const ambulo_model_definition *d, int carrier) {
+  for (int i = 0; i < d->link_count; i++) {
+    int at = i;
+    for (int step = 0; step < d->link_count && at >= 0 && at != carrier; step++) at = above(d, at);
+    if (at != carrier && d->links[i].mass > 0.0) return 0;
+  }
+  return 1;
+}
+
+/* 1 if some slider has no hinge between itself and the world */
+static int is_free(const ambulo_model_definition *d) {
+  for (int i = 0; i < d->link_count; i++) {
+    if (d->links[i].type != AMBULO_PRISMATIC) continue;
+    int at = i;
+    for (int step = 0; step <= d->link_count && at >= 0; step++) {
+      if (d->links[at].type == AMBULO_REVOLUTE) break;
+      at = above(d, at);
+    }
+    if (at < 0) return 1;
+  }
+  return 0;
+}
+
+static void check_drive(ambulo__checker *c, int index) {
+  const ambulo_model_definition *d = c->definition;
+  const ambulo_coordinate *self = &d->coordinates[index];
+  const struct {
+    const char *what, *units[2];
+    double value;
+  } parts[] = {{"armature", {"kg m^2", "kg"}, self->armature},
+               {"damping", {"N m s/rad", "N s/m"}, self->damping},
+               {"friction", {"N m", "N"}, self->friction}};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+    const char *unit = parts[i].units[type_of_coordinate(d, index) == AMBULO_PRISMATIC];
+    const char *name = self->name ? self->name : "";
+    if (parts[i].value == 0.0) continue;
+    if (!(parts[i].value > 0.0 && parts[i].value <= LARGEST_LIMIT)) {
+      c->status =
+          ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                        "%s of coordinate '%s' is out of range (got %s %s); expected 0 to "
+                        "1e12",
+                        parts[i].what, name, ambulo__number_text(parts[i].value).text, unit);
+    } else if (!self->actuated && is_free(d) &&
+               carries_every_mass(d, link_of_coordinate(d, index))) {
+      c->status =
+          ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                        "coordinate '%s' moves the whole free body, and no joint is there "
+                        "to have %s (got %s %s); expected 0",
+                        name, parts[i].what, ambulo__number_text(parts[i].value).text, unit);
+    }
+  }
+}
+
 static void report_mirror(ambulo__checker *c, int index, const char *why) {
   const char *name = c->definition->coordinates[index].name;
   c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
@@ -99,6 +170,7 @@ void ambulo__check_coordinates(ambulo__checker *c) {
     check_interval(c, i, "speed", coordinate->speed);
     check_interval(c, i, "torque", coordinate->torque);
     check_default(c, i);
+    check_drive(c, i);
     check_mirror(c, i);
   }
 }
@@ -122,6 +194,12 @@ static void check_point(ambulo__checker *c, int index) {
                               name, ambulo__number_text(point->position[i]).text);
     return;
   }
+}
+
+int ambulo__foot_is_point(const ambulo_foot *foot) {
+  int point = foot->heel_center;
+  return foot->toe_center == point && foot->heel[0] == point && foot->toe[0] == point &&
+         foot->heel[1] == -1 && foot->toe[1] == -1 && !foot->has_tip && !foot->has_arcs;
 }
 
 static int is_point(const ambulo_model_definition *d, int index) {
@@ -148,11 +226,12 @@ static void check_foot(ambulo__checker *c, int index) {
                               "foot '%s' has two corners at one end and one at the other; "
                               "expected as many at the heel as at the toe",
                               name);
-  } else if (foot->heel[0] == foot->heel[1] || foot->toe[0] == foot->toe[1] ||
-             foot->heel[0] == foot->toe[0] || foot->heel_center == foot->toe_center) {
+  } else if (!ambulo__foot_is_point(foot) &&
+             (foot->heel[0] == foot->heel[1] || foot->toe[0] == foot->toe[1] ||
+              foot->heel[0] == foot->toe[0] || foot->heel_center == foot->toe_center)) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
                               "foot '%s' uses one point twice; expected different corners, and "
-                              "different centres of heel and toe",
+                              "different centres of heel and toe, or one point for all four",
                               name);
   }
   int mirror = foot->mirror < 0 ? index : foot->mirror;

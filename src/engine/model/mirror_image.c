@@ -10,16 +10,21 @@
  *   chain     the partner of i hangs on the partner of what i hangs on
  *   axis      a_m = s H a_i of a slider, -s H a_i of a hinge, whose sense of turning a mirror
  *             reverses; the axes of hinges are the same lines
+ *   drive     armature, damping and dry friction
  *   segment   mass m, centre H c, inertia H I H of what each joint carries, m_m = m_i
  *
  * and then torques are mirrored too, gravity being perpendicular to left. No link frame enters:
  * left and right may be described in frames of either handedness. Feet: the points that touch the
  * ground are reflected, the two corners at one end in either order.
  *
+ * Coupled joints belong to what carries them. The body with these where they stand at some values
+ * of what they follow, the partner's value with its sign, has to be its own image as well.
+ *
  * All in the axes (forward, up, left) of model/neutral_pose.h, H = diag(1, 1, -1).
  */
 #include "model/mirror_image.h"
 
+#include "base/numtext.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
@@ -47,17 +52,6 @@ typedef struct quantity {
 } quantity;
 
 /* -------------------------------------------------------------------- messages */
-
-int ambulo__digits_apart(double a, double b) {
-  char text[2][48];
-  int digits = 6;
-  for (; digits < 17; digits++) {
-    (void)snprintf(text[0], sizeof text[0], "%.*g", digits, a);
-    (void)snprintf(text[1], sizeof text[1], "%.*g", digits, b);
-    if (a == b || strcmp(text[0], text[1]) != 0) break;
-  }
-  return digits;
-}
 
 #define DIFFER(c, hint, format, ...)                                                               \
   (c)->status = ambulo__error((c)->diagnostics, (c)->words->status, ambulo__nowhere, hint,         \
@@ -183,6 +177,20 @@ static int compare_axes(comparison *c, int i, int m) {
     b[k] = other.axes[k][2];
   }
   return compare_directions(c, i, m, a, b) || compare_lines(c, i, m, own.origin, other.origin, b);
+}
+
+/* what a drive adds does not change its sign in the mirror */
+static void compare_drives(comparison *c, int i, int m) {
+  const ambulo_coordinate *a = &c->model->coordinates[i], *b = &c->model->coordinates[m];
+  int slides = a->type == AMBULO_PRISMATIC;
+  const double own[] = {a->armature, a->damping, a->friction};
+  const double other[] = {b->armature, b->damping, b->friction};
+  const quantity of[] = {{"armature", slides ? "kg" : "kg m^2", "", 0},
+                         {"damping", slides ? "N s/m" : "N m s/rad", "", 0},
+                         {"dry friction", slides ? "N" : "N m", "", 0}};
+  for (int k = 0; k < 3; k++)
+    if (differs(own[k], other[k], 0, tolerance * fmax(own[k], other[k])))
+      report(c, &of[k], a->name, own[k], b->name, other[k]);
 }
 
 /* -------------------------------------------------------------------- segments */
@@ -311,11 +319,56 @@ static void compare(comparison *c) {
     int parent = ambulo__segment_parent(&c->segments, i);
     int elsewhere = c->displaced[parent] || compare_chain(c, i, m) || compare_axes(c, i, m);
     c->displaced[i + 1] = c->displaced[m + 1] = (char)elsewhere;
+    if (i != m) compare_drives(c, i, m);
     compare_bodies(c, i + 1, m + 1);
   }
   for (int f = 0; f < model->foot_count; f++) {
     if (model->feet[f].mirror >= f) compare_feet(c, f, model->feet[f].mirror);
   }
+}
+
+static int is_followed(const ambulo_model *model, int coordinate) {
+  for (int i = 0; i < model->link_count; i++)
+    if (model->couplings[i].to == coordinate) return 1;
+  return 0;
+}
+
+/* the joints that follow coordinate i and its partner; reports where these stand at first */
+static void compare_followers(comparison *c, int i, double *followed) {
+  static const double places[] = {-1.5, -0.7, -0.1, 0.2, 0.6, 1.7};
+  const ambulo_coordinate *own = &c->model->coordinates[i];
+  for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+    comparison silent = *c;
+    silent.diagnostics = NULL;
+    followed[own->mirror] = own->mirror_sign * places[k];
+    followed[i] = places[k];
+    ambulo__segments_at(&silent.segments, followed);
+    memset(c->displaced, 0, (size_t)c->model->coordinate_count + 1);
+    compare(&silent);
+    followed[i] = followed[own->mirror] = 0.0;
+    if (silent.status == AMBULO_OK) continue;
+    DIFFER(c, c->words->hint,
+           "joints that follow '%s' and '%s' are not mirror images of each other where these stand "
+           "at %g and %g",
+           own->name, c->model->coordinates[own->mirror].name, places[k],
+           own->mirror_sign * places[k]);
+    return;
+  }
+}
+
+/* Each pair once; what is its own image with the sign turned is so at 0 alone. */
+static void compare_functions(comparison *c) {
+  const ambulo_model *model = c->model;
+  double *followed =
+      ambulo__alloc(&c->segments.allocator, (size_t)model->coordinate_count, sizeof *followed);
+  if (!followed) c->status = AMBULO_E_MEMORY;
+  for (int i = 0; followed && i < model->coordinate_count && !c->status; i++) {
+    const ambulo_coordinate *own = &model->coordinates[i];
+    int alone = own->mirror == i && own->mirror_sign < 0.0;
+    if (own->mirror < i || alone) continue;
+    if (is_followed(model, i) || is_followed(model, own->mirror)) compare_followers(c, i, followed);
+  }
+  ambulo__free(&c->segments.allocator, followed);
 }
 
 ambulo_status ambulo__mirror_image_check(const ambulo_model *model,
@@ -328,6 +381,7 @@ ambulo_status ambulo__mirror_image_check(const ambulo_model *model,
   c.displaced = ambulo__alloc(&c.segments.allocator, (size_t)model->coordinate_count + 1, 1);
   if (c.displaced) {
     compare(&c);
+    if (model->coupled_count > 0 && !c.status) compare_functions(&c);
   } else {
     c.status = AMBULO_E_MEMORY;
   }

@@ -27,7 +27,4 @@ ambulo_status ambulo__mirror_image_check(const ambulo_model *model,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics);
 
-/* How many digits, at least six, tell two numbers apart. */
-int ambulo__digits_apart(double a, double b);
-
 #endif

@@ -44,7 +44,7 @@ static void sort_links(const ambulo_model_definition *d, numbering *n) {
       n->order[count] = link;
       n->place[link] = count++;
     }
-    n->old_coordinate[i] = d->links[i].type == AMBULO_FIXED ? -1 : coordinate++;
+    n->old_coordinate[i] = ambulo__link_has_coordinate(&d->links[i]) ? coordinate++ : -1;
   }
   coordinate = 0;
   for (int i = 0; i < d->link_count; i++) {
@@ -74,8 +74,32 @@ static const char *keep(char **end, const char *name) {
   return kept;
 }
 
+static void copy_function(ambulo_model *m, ambulo_link *link, const numbering *n,
+                          double **splines) {
+  size_t numbers = 2 * (size_t)link->spline_count;
+  link->coupled_to = n->new_coordinate[link->coupled_to];
+  if (numbers > 0) memcpy(*splines, link->spline, numbers * sizeof **splines);
+  link->spline = numbers > 0 ? *splines : NULL;
+  *splines += numbers;
+  m->coupled_count++;
+}
+
+void ambulo__model_couple(ambulo_model *model) {
+  ambulo__piece *pieces = model->pieces;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    model->couplings[i] = (ambulo__coupling){.to = link->coupled_to};
+    if (link->coupled_to < 0) continue;
+    ambulo__coupling_fill(link, pieces);
+    model->couplings[i].pieces = pieces;
+    model->couplings[i].count = ambulo__coupling_count(link);
+    pieces += model->couplings[i].count;
+  }
+}
+
 static void copy_links(ambulo_model *m, const ambulo_model_definition *d, const numbering *n,
                        char **text) {
+  double *splines = m->splines;
   for (int i = 0; i < m->link_count; i++) {
     ambulo_link *link = &m->links[i];
     *link = d->links[n->order[i]];
@@ -84,6 +108,7 @@ static void copy_links(ambulo_model *m, const ambulo_model_definition *d, const 
     int old = n->old_coordinate[n->order[i]];
     link->coordinate = old >= 0 ? n->new_coordinate[old] : -1;
     m->mass += link->mass;
+    if (link->coupled_to >= 0) copy_function(m, link, n, &splines);
     if (old < 0) continue;
     ambulo_coordinate *coordinate = &m->coordinates[link->coordinate];
     *coordinate = d->coordinates[old];
@@ -142,6 +167,15 @@ static void set_directions(ambulo_model *m, const double forward[3]) {
 static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   const ambulo_allocator *a = &m->allocator;
   size_t links = (size_t)d->link_count, coordinates = (size_t)d->coordinate_count;
+  size_t points = 0, pieces = 0;
+  for (int i = 0; i < d->link_count; i++) {
+    if (d->links[i].coupled_to < 0) continue;
+    points += (size_t)d->links[i].spline_count;
+    pieces += (size_t)ambulo__coupling_count(&d->links[i]);
+  }
+  m->couplings = ambulo__alloc(a, links, sizeof *m->couplings);
+  m->splines = ambulo__alloc(a, 2 * points, sizeof *m->splines);
+  m->pieces = ambulo__alloc(a, pieces, sizeof *m->pieces);
   m->text = ambulo__alloc(a, text_size(d), 1);
   m->links = ambulo__alloc(a, links, sizeof *m->links);
   m->coordinates = ambulo__alloc(a, coordinates, sizeof *m->coordinates);
@@ -153,8 +187,9 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   m->patches = ambulo__alloc(a, (size_t)d->patch_count, sizeof *m->patches);
   m->capsules = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsules);
   m->capsule_point = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsule_point);
-  return m->text && m->links && m->coordinates && m->coordinate_link && m->coordinate_written &&
-         m->points && m->neutral && m->feet && m->patches && m->capsules && m->capsule_point;
+  return m->couplings && m->splines && m->pieces && m->text && m->links && m->coordinates &&
+         m->coordinate_link && m->coordinate_written && m->points && m->neutral && m->feet &&
+         m->patches && m->capsules && m->capsule_point;
 }
 
 static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
@@ -179,6 +214,7 @@ static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
   copy_links(m, d, &n, &text);
   copy_contacts(m, d, &n, &text);
   copy_capsules(m, d, &n, &text);
+  ambulo__model_couple(m);
   ambulo__neutral_points(m);
   memcpy(m->gravity, d->gravity, sizeof m->gravity);
   set_directions(m, d->forward);
@@ -222,6 +258,9 @@ void ambulo_model_free(ambulo_model *model) {
   ambulo_allocator a = model->allocator;
   ambulo__free(&a, model->text);
   ambulo__free(&a, model->links);
+  ambulo__free(&a, model->couplings);
+  ambulo__free(&a, model->splines);
+  ambulo__free(&a, model->pieces);
   ambulo__free(&a, model->coordinates);
   ambulo__free(&a, model->coordinate_link);
   ambulo__free(&a, model->coordinate_written);

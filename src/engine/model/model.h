@@ -5,6 +5,7 @@
 #include "ambulo/model.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
+#include "model/coupling.h"
 
 /* One of the file's units in SI units and radians; all 0: the model was made from C. */
 typedef struct ambulo__model_units {
@@ -33,6 +34,10 @@ struct ambulo_model {
   int load_count;
   ambulo_link *links; /* [link_count] */
   int link_count;
+  ambulo__coupling *couplings;    /* [link_count] */
+  int coupled_count;              /* of links that are coupled */
+  double *splines;                /* points of all functions, which links point into */
+  ambulo__piece *pieces;          /* of all functions */
   ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */
   int *coordinate_link;           /* [coordinate_count]: the link that carries coordinate i */
   int *coordinate_written;        /* [coordinate_count]: the link that its file describes it with */
@@ -49,6 +54,33 @@ struct ambulo_model {
                          has no points (model/model_query.h) */
   int capsule_count;
 };
+
+/* Speed at which a coordinate's dry friction is smoothed, rad/s or m/s. */
+static inline double ambulo__friction_speed(const ambulo_coordinate *coordinate) {
+  return coordinate->type == AMBULO_REVOLUTE ? AMBULO_FRICTION_RATE : AMBULO_FRICTION_SPEED;
+}
+
+/* The coordinate that moves the joint of a link, its own or the one that it is coupled to; -1: none
+ * does. */
+static inline int ambulo__moved_by(const ambulo_model *model, int link) {
+  int own = model->links[link].coordinate;
+  return own >= 0 ? own : model->couplings[link].to;
+}
+/* Where the joint of a link stands at q [coordinates], rad or m, with its derivatives by the
+ * coordinate that moves it; 0 of a fixed link. */
+static inline double ambulo__joint_value(const ambulo_model *model, int link, const double *q,
+                                         double slope[AMBULO__COUPLING_SLOPES]) {
+  int own = model->links[link].coordinate;
+  const ambulo__coupling *coupling = &model->couplings[link];
+  if (own < 0 && coupling->to >= 0) return ambulo__coupling_value(coupling, q[coupling->to], slope);
+  if (slope) {
+    slope[0] = own >= 0;
+    slope[1] = slope[2] = 0.0;
+  }
+  return own >= 0 ? q[own] : 0.0;
+}
+/* After the functions of links have changed. */
+void ambulo__model_couple(ambulo_model *model);
 
 /* What is so long along forward, left and up, along the world's axes. */
 static inline void ambulo__along_axes(const ambulo_model *model, const double along[3],
@@ -81,6 +113,8 @@ double ambulo__model_load_mass(const ambulo_model *model);
 /* The body weight m |g|, N: what forces are measured by. */
 double ambulo__model_weight(const ambulo_model *model);
 
+/* 1: one point for all of it (ambulo/model.h). */
+int ambulo__foot_is_point(const ambulo_foot *foot);
 /* Index of a patch by its name; -1: none. */
 int ambulo__find_patch(const ambulo_model *model, const char *name);
 

@@ -1,5 +1,6 @@
 /* model/model_check.c - what every definition must satisfy: sizes, names, the world. */
 #include "model/model_check.h"
+#include "model/coupling.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,7 +35,7 @@ static ambulo_status check_sizes(ambulo__checker *c) {
                          sizes[i].limit);
   }
   int joints = 0;
-  for (int i = 0; i < d->link_count; i++) joints += d->links[i].type != AMBULO_FIXED;
+  for (int i = 0; i < d->link_count; i++) joints += ambulo__link_has_coordinate(&d->links[i]);
   if (joints == 0) {
     return ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
                          "the model cannot move (got %d links, none revolute or prismatic); "
@@ -42,10 +43,11 @@ static ambulo_status check_sizes(ambulo__checker *c) {
                          d->link_count);
   }
   if (joints != d->coordinate_count) {
-    return ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
-                         "one coordinate belongs to each revolute or prismatic link (got %d "
-                         "coordinates for %d such links)",
-                         d->coordinate_count, joints);
+    return ambulo__error(
+        c->diagnostics, AMBULO_E_MODEL, place, NULL,
+        "one coordinate belongs to each revolute or prismatic link that is not coupled (got %d "
+        "coordinates for %d such links)",
+        d->coordinate_count, joints);
   }
   return AMBULO_OK;
 }
@@ -270,6 +272,51 @@ static void check_cycles(ambulo__checker *c) {
   }
 }
 
+/* what is wrong with the points of a spline; NULL: nothing */
+static const char *fault_of_spline(const ambulo_link *link) {
+  const double *points = link->spline;
+  if (link->spline_count < 2 || link->spline_count > AMBULO__MOST_KNOTS || !points)
+    return "expected 2 to 1024 points";
+  for (int k = 0; k < 2 * link->spline_count; k++) {
+    if (!isfinite(points[k]) || fabs(points[k]) > 1e6) return "expected finite numbers up to 1e6";
+    if (k >= 2 && k % 2 == 0 && points[k] - points[k - 2] < 1e-9)
+      return "expected coordinates that rise from point to point, by 1e-9 or more";
+  }
+  return NULL;
+}
+
+static const char *fault_of_polynomial(const ambulo_link *link) {
+  for (int k = 0; k < AMBULO__COUPLING_TERMS; k++)
+    if (!isfinite(link->polynomial[k]) || fabs(link->polynomial[k]) > 1e9)
+      return "expected finite numbers up to 1e9";
+  return NULL;
+}
+
+static void check_coupling(ambulo__checker *c, int i) {
+  const ambulo_link *link = &c->definition->links[i];
+  ambulo__place place = ambulo__place_of_link(c, i);
+  if (link->coupled_to < 0) return;
+  if (link->type == AMBULO_FIXED) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "link '%s' is coupled, but fixed; expected revolute or prismatic",
+                              name_of(c, i));
+  }
+  if (link->coupled_to >= c->definition->coordinate_count) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "link '%s' is coupled to a coordinate that does not exist (got index "
+                              "%d); expected 0 to %d",
+                              name_of(c, i), link->coupled_to, c->definition->coordinate_count - 1);
+  }
+  const char *fault = link->spline_count != 0 ? fault_of_spline(link) : fault_of_polynomial(link);
+  if (!fault) return;
+  c->status = ambulo__error(
+      c->diagnostics, AMBULO_E_MODEL, place, NULL,
+      "the function of coupled link '%s' is not usable (its %s has %d "
+      "numbers); %s",
+      name_of(c, i), link->spline_count != 0 ? "spline" : "polynomial",
+      link->spline_count != 0 ? 2 * link->spline_count : AMBULO__COUPLING_TERMS, fault);
+}
+
 static void check_link(ambulo__checker *c, int i) {
   const ambulo_link *link = &c->definition->links[i];
   const double dh[4] = {link->theta, link->d, link->a, link->alpha};
@@ -288,6 +335,7 @@ static void check_link(ambulo__checker *c, int i) {
                               "revolute or prismatic",
                               name_of(c, i), link->type ? "unknown" : "not set", (int)link->type);
   }
+  check_coupling(c, i);
   int has_inertia = 0;
   for (int k = 0; k < 6; k++) has_inertia |= link->inertia[k] != 0;
   if (link->mass == 0 && !has_inertia) return; /* no body */

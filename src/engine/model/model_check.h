@@ -38,6 +38,11 @@ typedef struct ambulo__checker {
   ambulo_status status;
 } ambulo__checker;
 
+/* 1: a joint that moves by a coordinate of its own. */
+static inline int ambulo__link_has_coordinate(const ambulo_link *link) {
+  return link->type != AMBULO_FIXED && link->coupled_to < 0;
+}
+
 static inline ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
   return c->places ? c->places->model : (ambulo__place){0};
 }

@@ -16,6 +16,17 @@
 
 static const double parallel_tolerance = 1e-9;
 
+/* A link with the constants that it has at q = 0: a coupled joint need not stand at 0 there.
+ * followed [coordinates]: what coupled joints follow instead; NULL: zeros. */
+static ambulo_link link_at_zero(const ambulo_model *model, int index, const double *followed) {
+  ambulo_link link = model->links[index];
+  const ambulo__coupling *coupling = &model->couplings[index];
+  if (coupling->to < 0) return link;
+  double value = ambulo__coupling_value(coupling, followed ? followed[coupling->to] : 0.0, NULL);
+  *(link.type == AMBULO_REVOLUTE ? &link.theta : &link.d) += value;
+  return link;
+}
+
 /* (DH): v of the link frame into the parent frame; `is_point` adds the translation */
 static void to_parent(const ambulo_link *link, int is_point, double v[3]) {
   double ca = cos(link->alpha), sa = sin(link->alpha);
@@ -29,7 +40,10 @@ static void to_parent(const ambulo_link *link, int is_point, double v[3]) {
 }
 
 static void to_world(const ambulo_model *model, int link, int is_point, double v[3]) {
-  for (int i = link; i >= 0; i = model->links[i].parent) to_parent(&model->links[i], is_point, v);
+  for (int i = link; i >= 0; i = model->links[i].parent) {
+    ambulo_link at = link_at_zero(model, i, NULL);
+    to_parent(&at, is_point, v);
+  }
 }
 
 void ambulo__neutral_points(ambulo_model *model) {
@@ -72,7 +86,7 @@ void ambulo__neutral_axis(const ambulo_model *model, int coordinate, double axis
 
 /* does the joint of this one link leave the plane, its ancestors left alone? */
 static int joint_moves_sideways(const ambulo_model *model, int link) {
-  if (model->links[link].coordinate < 0) return 0;
+  if (model->links[link].type == AMBULO_FIXED) return 0;
   double axis[3];
   link_axis(model, link, axis);
   double along = fabs(ambulo__dot(axis, model->left));
@@ -204,13 +218,14 @@ static ambulo__part body_of(const ambulo__segment_frame *frame, const ambulo_lin
   return body;
 }
 
-static void fill(ambulo__segments *s) {
+void ambulo__segments_at(ambulo__segments *s, const double *followed) {
   const ambulo_model *model = s->model;
   const ambulo__segment_frame world = world_frame(model);
+  memset(s->body, 0, ((size_t)model->coordinate_count + 1) * sizeof *s->body);
   s->heaviest[0] = -1;
   for (int c = 0; c < model->coordinate_count; c++) s->heaviest[c + 1] = model->coordinate_link[c];
   for (int i = 0; i < model->link_count; i++) {
-    const ambulo_link *link = &model->links[i];
+    const ambulo_link zero = link_at_zero(model, i, followed), *link = &zero;
     s->frame[i] = frame_of(link->parent < 0 ? &world : &s->frame[link->parent], link);
     s->of_link[i] = link->coordinate >= 0 ? link->coordinate + 1
                     : link->parent >= 0   ? s->of_link[link->parent]
@@ -235,7 +250,7 @@ ambulo_status ambulo__segments_create(const ambulo_model *model, const ambulo_al
     ambulo__segments_free(&s);
     return AMBULO_E_MEMORY;
   }
-  fill(&s);
+  ambulo__segments_at(&s, NULL);
   *segments = s;
   return AMBULO_OK;
 }

@@ -67,6 +67,9 @@ typedef struct ambulo__segments {
 ambulo_status ambulo__segments_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                       ambulo__segments *segments);
 void ambulo__segments_free(ambulo__segments *segments);
+/* Joints with a coordinate stay at 0, but coupled ones stand where they do for followed
+ * [coordinates]. */
+void ambulo__segments_at(ambulo__segments *segments, const double *followed);
 
 /* The segment that the joint of coordinate c hangs on. */
 int ambulo__segment_parent(const ambulo__segments *segments, int coordinate);

@@ -1,4 +1,4 @@
-/* muscle/kernel_functions.h - comparisons, roots, exponentials and logarithms, lane by lane.
+/* muscle/kernel_functions.h - comparisons, exponentials and logarithms, lane by lane.
  *
  * e^x: x = n ln 2 + r with n the nearest whole number, |r| <= 0.347, and the series of e^r to
  * r^13; ln 2 is split into 33 + 53 bits, so that n times the first part is exact. Within 2e-16 of
@@ -40,12 +40,6 @@ AMBULO__INLINE wide larger(wide a, wide b) {
 
 AMBULO__INLINE wide smaller(wide a, wide b) {
   return choose(below(b, a), b, a);
-}
-
-AMBULO__INLINE wide root(wide x) {
-  wide y;
-  for (int lane = 0; lane < AMBULO__WIDTH; lane++) y[lane] = __builtin_sqrt(x[lane]);
-  return y;
 }
 
 AMBULO__INLINE wide exponential(wide x) {

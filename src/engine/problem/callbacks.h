@@ -21,9 +21,10 @@ static inline const double *ambulo__user_slope(const ambulo_workspace *workspace
 /* What composite terms read their channels from. */
 static inline ambulo__term_context ambulo__term_context_of(const ambulo_workspace *workspace) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__term_context context = {
-      p->model,  p->channels, workspace->channel_count,    workspace->channel, p->nodes, p->times,
-      p->active, p->before,   p->definition.ground_height, workspace->muscles};
+  ambulo__term_context context = {p->model,           p->channels, workspace->channel_count,
+                                  workspace->channel, p->nodes,    p->times,
+                                  p->active,          p->before,   p->definition.ground_height,
+                                  workspace->muscles, &p->slots,   p->ground};
   return context;
 }
 

@@ -22,6 +22,7 @@ static size_t natural(int count) {
 size_t ambulo__member_length(const ambulo__member *m, const ambulo_problem_definition *d,
                              const void *item) {
   size_t coordinates = d->model ? natural(ambulo_model_coordinate_count(d->model)) : 0;
+  size_t feet = d->model ? natural(ambulo_model_foot_count(d->model)) : 0;
   size_t nodes =
       d->intervals > 0 && d->intervals <= AMBULO__MOST_INTERVALS ? natural(d->intervals) + 1 : 0;
   switch (m->extent) {
@@ -35,8 +36,14 @@ size_t ambulo__member_length(const ambulo__member *m, const ambulo_problem_defin
     return natural(d->spline_intervals) + 1;
   case AMBULO__EACH_DEVICE:
     return natural(d->device_count);
+  case AMBULO__EACH_FOOT:
+    return feet;
   case AMBULO__EACH_NODE_COORDINATE:
     return nodes * coordinates;
+  case AMBULO__EACH_NODE_COUNTED:
+    return nodes * natural(int_at(item, m->count_at));
+  case AMBULO__EACH_NODE_FOOT:
+    return nodes * feet;
   case AMBULO__EACH_SAMPLE_COORDINATE:
     return natural(int_at(item, m->count_at)) * coordinates;
   }
@@ -295,6 +302,11 @@ static hash add_bodies(hash h, const ambulo_model *model) {
     const int integers[] = {link->parent, (int)link->type, link->coordinate};
     h = add_integers(add_text(h, link->name), integers, 3);
     h = add_numbers(h, &link->theta, 4);
+    if (link->coupled_to >= 0) {
+      h = add_integers(h, &link->coupled_to, 1);
+      h = add_numbers(h, link->spline, 2 * (size_t)link->spline_count);
+      h = add_numbers(h, link->polynomial, AMBULO__COUPLING_TERMS);
+    }
     h = add_numbers(add_numbers(add_numbers(h, &link->mass, 1), link->com, 3), link->inertia, 6);
   }
   for (int i = 0; i < model->coordinate_count; i++) {
@@ -303,6 +315,8 @@ static hash add_bodies(hash h, const ambulo_model *model) {
     const int integers[] = {(int)c->type, c->actuated, c->mirror};
     h = add_numbers(add_integers(add_text(h, c->name), integers, 3), numbers, 2);
     h = add_numbers(add_numbers(add_numbers(h, c->range, 2), c->speed, 2), c->torque, 2);
+    const double drive[] = {c->armature, c->damping, c->friction};
+    if (drive[0] != 0.0 || drive[1] != 0.0 || drive[2] != 0.0) h = add_numbers(h, drive, 3);
   }
   return h;
 }

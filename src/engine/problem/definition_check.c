@@ -206,6 +206,12 @@ static int is_line(const ambulo_model *model, const int point[2]) {
   return ambulo__upright_length(model, point) > narrowest;
 }
 
+static int are_points(const ambulo_model *model, const ambulo_term *term) {
+  for (int i = 0; i < term->mark_count; i++)
+    if (!ambulo_model_point(model, term->marks[i])) return 0;
+  return term->mark_count > 0;
+}
+
 static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                                 ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
@@ -224,8 +230,11 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
   if (lack) return REFUSE(list, "objective[%d] (%s): %s", t, info->name, lack);
   if (term->tendon && !(has & AMBULO__TERM_TENDON))
     return REFUSE(list, "objective[%d] (%s): tendons; expected mechanical_power", t, info->name);
-  if (has & AMBULO__TERM_REFERENCE && !term->reference)
+  if (ambulo__term_follows(term) && !term->reference && !term->mark_reference &&
+      !term->foot_reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
+  if (has & AMBULO__TERM_MARKS && !are_points(d->model, term))
+    return REFUSE(list, "objective[%d] (%s): the points are not those of the model", t, info->name);
   if (has & AMBULO__TERM_CALLBACK && !term->function)
     return REFUSE(list, "objective[%d] (%s): no function", t, info->name);
   return AMBULO_OK;

@@ -258,6 +258,17 @@ static const ambulo__member term[] = {
      "price of metabolic power in", AMBULO__TERM_MUSCLES},
     {NUMBER("reserve", reserve, 1e-9, LARGEST, 0.2), EXACT, AMBULO__RATIO, "price of reserves in",
      AMBULO__TERM_MUSCLES},
+    {AT("points", marks, AMBULO__INDEX_ARRAY), .count = 1, .count_at = offsetof(OF, mark_count),
+     .flags = APART, .of_kinds = AMBULO__TERM_MARKS},
+    {COUNTER(mark_count)},
+    {ARRAY("scale", mark_scale, AMBULO__COUNTED, 1, 0.0, LARGEST), EXACT | APART,
+     .count_at = offsetof(OF, mark_count), .of_kinds = AMBULO__TERM_MARKS},
+    {ARRAY("reference", mark_reference, AMBULO__EACH_NODE_COUNTED, 3, -LARGEST, LARGEST),
+     EXACT | APART | OFF, .count_at = offsetof(OF, mark_count), .of_kinds = AMBULO__TERM_MARKS},
+    {ARRAY("scale", foot_scale, AMBULO__EACH_FOOT, 1, 0.0, LARGEST), EXACT | APART,
+     .of_kinds = AMBULO__TERM_LOADS},
+    {ARRAY("reference", foot_reference, AMBULO__EACH_NODE_FOOT, 3, -LARGEST, LARGEST),
+     EXACT | APART | OFF, .of_kinds = AMBULO__TERM_LOADS},
 };
 TABLE("objective", term);
 #undef OF

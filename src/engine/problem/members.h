@@ -59,7 +59,10 @@ typedef enum ambulo__extent {
   AMBULO__EACH_NODE,
   AMBULO__EACH_KNOT,
   AMBULO__EACH_DEVICE,
+  AMBULO__EACH_FOOT,
   AMBULO__EACH_NODE_COORDINATE,
+  AMBULO__EACH_NODE_COUNTED, /* of each node as many as count_at says */
+  AMBULO__EACH_NODE_FOOT,
   AMBULO__EACH_SAMPLE_COORDINATE /* samples at count_at */
 } ambulo__extent;
 

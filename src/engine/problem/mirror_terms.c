@@ -24,6 +24,7 @@
 
 #include "contact/devices.h"
 #include "contact/row_families.h"
+#include "base/numtext.h"
 #include "model/mirror_image.h"
 #include "model/neutral_pose.h"
 #include "problem/term.h"

@@ -177,7 +177,8 @@ const char *ambulo__muscle_lacks(const ambulo_problem_definition *d) {
 
 /* ------------------------------------------------------------------- curvature */
 
-int ambulo__muscle_forms(const ambulo__term_context *context) {
+int ambulo__muscle_forms(const ambulo_term *term, const ambulo__term_context *context) {
+  (void)term;
   return context->muscles ? context->muscles->forms : 0;
 }
 

@@ -38,7 +38,7 @@ void ambulo__muscle_effort_free(ambulo__muscle_effort *effort); /* accepts NULL 
 double ambulo__muscle_value(struct ambulo_workspace *workspace, const ambulo_term *term,
                             double factor, double *slopes);
 const char *ambulo__muscle_lacks(const ambulo_problem_definition *definition);
-int ambulo__muscle_forms(const ambulo__term_context *context);
+int ambulo__muscle_forms(const ambulo_term *term, const ambulo__term_context *context);
 void ambulo__muscle_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                          int j, ambulo__form *form);
 

@@ -68,6 +68,7 @@ struct ambulo_problem {
   ambulo__basis *basis;
   ambulo__lane_map *map;
   ambulo__channels channels;
+  ambulo__slots slots; /* of ground reaction; 0 without */
   int coordinates, control_points, variables;
   int nodes, blocks;
   double *times;      /* [nodes], s; not equally spaced in general */

@@ -165,12 +165,30 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   return status ? status : ambulo__strength_check(d, &p->allocator, diagnostics);
 }
 
+/* l of the contacts: where all are point feet, which turn nothing, no more than their region. With
+ * the reach of a sole their moments would carry a trot, and rows of pressure refuse it. */
+static double moment_arm(const ambulo_problem_definition *d, const ambulo__slots *slots) {
+  double arm = d->ground_reaction.moment_arm;
+  return slots->all_points ? fmin(arm, AMBULO__POINT_REGION) : arm;
+}
+
+/* contacts carry what moves the whole body: no torque is left to drive it with */
+static ambulo_status check_undriven(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  int k = ambulo__plan_undriven(p->plan);
+  if (k < 0) return AMBULO_OK;
+  return REFUSE(diagnostics,
+                "ground_reaction: the contacts carry the whole body, which '%s' moves; expected it "
+                "without armature, damping and friction",
+                p->model->coordinates[k].name);
+}
+
 static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
     return ambulo__plan_create(p->model, &p->allocator, &p->plan);
   const ambulo_ground_reaction *r = &d->ground_reaction;
-  ambulo__slots slots = ambulo__slots_of(d);
+  p->slots = ambulo__slots_of(d);
+  const ambulo__slots slots = p->slots;
   if (slots.count < 1 || slots.count > AMBULO__MOST_SLOTS)
     return REFUSE(diagnostics,
                   "ground_reaction: the feet of '%s' and its patches in contact press on the "
@@ -178,8 +196,9 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
                   ambulo_model_name(p->model), slots.count, AMBULO__MOST_SLOTS);
   p->channels.feet = ambulo_model_foot_count(p->model);
   p->channels.slots = slots.count;
-  return ambulo__plan_create_contacts(p->model, slots.link, slots.count, r->moment_arm, r->slant,
-                                      &p->allocator, &p->plan);
+  ambulo_status status = ambulo__plan_create_contacts(
+      p->model, slots.link, slots.count, moment_arm(d, &slots), r->slant, &p->allocator, &p->plan);
+  return status ? status : check_undriven(p, diagnostics);
 }
 
 static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {

@@ -8,6 +8,25 @@ int ambulo__term_has(const ambulo_term *term, int member) {
   return info && info->members & member;
 }
 
+const double **ambulo__term_reference(ambulo_term *term, const ambulo_model *model, size_t *width) {
+  int members = ambulo__term_info_of(term->kind)->members;
+  if (members & AMBULO__TERM_REFERENCE) {
+    *width = (size_t)ambulo_model_coordinate_count(model);
+    return &term->reference;
+  }
+  if (members & AMBULO__TERM_MARKS) {
+    *width = 3 * (size_t)term->mark_count;
+    return &term->mark_reference;
+  }
+  if (!(members & AMBULO__TERM_LOADS)) return NULL;
+  *width = 3 * (size_t)ambulo_model_foot_count(model);
+  return &term->foot_reference;
+}
+
+int ambulo__term_follows(const ambulo_term *term) {
+  return ambulo__term_has(term, AMBULO__TERM_REFERENCE | AMBULO__TERM_MARKS | AMBULO__TERM_LOADS);
+}
+
 /* ------------------------------------------------------------ simple terms */
 
 int ambulo__term_is_simple(const ambulo_term *term) {
@@ -67,7 +86,7 @@ ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
 int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *context, int node) {
   const ambulo__term_info *info = ambulo__term_info_of(term->kind);
   if (!info->forms || (ambulo__term_is_rate(term) && node + 1 >= context->nodes)) return 0;
-  return info->forms(context);
+  return info->forms(term, context);
 }
 
 void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *context, int node,

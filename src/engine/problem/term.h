@@ -19,6 +19,7 @@
 #define AMBULO_PROBLEM_TERM_H
 
 #include "ambulo/problem.h"
+#include "contact/contacts.h"
 #include "contact/rows.h"
 
 /* One scalar residual of a term. */
@@ -72,7 +73,9 @@ enum {
   AMBULO__TERM_TENDON = 1 << 10,   /* tendon */
   AMBULO__TERM_CALLBACK = 1 << 11, /* function, user: not in files */
   AMBULO__TERM_NEGATIVE = 1 << 12, /* negative */
-  AMBULO__TERM_MUSCLES = 1 << 13   /* activation, metabolic, reserve */
+  AMBULO__TERM_MUSCLES = 1 << 13,  /* activation, metabolic, reserve */
+  AMBULO__TERM_MARKS = 1 << 14,    /* marks, mark_scale, mark_reference */
+  AMBULO__TERM_LOADS = 1 << 15     /* foot_scale, foot_reference */
 };
 
 /* Which two sides have to agree, with mirrored ends (mirror_terms.c). */
@@ -94,7 +97,7 @@ typedef struct ambulo__term_info {
   int weight_is_length;    /* the weight is as large as the body is long (problem/definition.h)
                             */
   /* Of composite kinds: how many residuals there are at a node, and one of them. */
-  int (*forms)(const struct ambulo__term_context *context);
+  int (*forms)(const ambulo_term *term, const struct ambulo__term_context *context);
   void (*form)(const ambulo_term *term, const struct ambulo__term_context *context, int node, int j,
                struct ambulo__form *form);
   /* Of kinds that are no sum over residuals: value and slopes as in ambulo__term_value. Their forms
@@ -108,6 +111,11 @@ typedef struct ambulo__term_info {
 const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind); /* NULL if unknown */
 /* 1 if the kind of a term has the member. */
 int ambulo__term_has(const ambulo_term *term, int member);
+/* The member with what the term follows at the nodes, and how many numbers that is for each node of
+ * this model; NULL: its kind follows nothing. */
+const double **ambulo__term_reference(ambulo_term *term, const ambulo_model *model, size_t *width);
+/* 1 if it follows something. */
+int ambulo__term_follows(const ambulo_term *term);
 
 /* ------------------------------------------------------------ simple terms */
 
@@ -138,7 +146,7 @@ void ambulo__term_shapes(const ambulo_term *term, double least, const double *u,
 
 /* A residual u and its slopes. Channels may stand on the next node as well (torque
  * rate); ahead[c] is 0 for the node itself, 1 for the next. */
-enum { AMBULO__FORM_CHANNELS = 8 };
+enum { AMBULO__FORM_CHANNELS = 12 }; /* forces and moments of two slots */
 typedef struct ambulo__form {
   double u;
   double difference; /* the part of u that is a difference of nodes over their interval's length */
@@ -160,6 +168,8 @@ typedef struct ambulo__term_context {
   const int *before;   /* the same just before each node, on grids on events; NULL: as active */
   double ground_height;
   const struct ambulo__muscle_effort *muscles; /* NULL: no such term */
+  const ambulo__slots *slots;                  /* of ground reaction */
+  const double *ground; /* [blocks][3 + 4 slots][8]: their weights and centres */
 } ambulo__term_context;
 
 /* 1 if its residuals are those of the interval between a node and the next. */

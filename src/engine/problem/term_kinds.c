@@ -2,18 +2,15 @@
  *
  * A new kind is a constant of ambulo_term_kind, a law and a row of the table. */
 #include "model/neutral_pose.h"
+#include "problem/force_terms.h"
 #include "problem/muscle_effort.h"
 #include "problem/term.h"
 
 #include <math.h>
 
-static int each_coordinate(const ambulo__term_context *context) {
+static int each_coordinate(const ambulo_term *term, const ambulo__term_context *context) {
+  (void)term;
   return context->channels.coordinates;
-}
-
-static double body_weight(const ambulo_model *model) {
-  const double *g = ambulo_model_gravity(model);
-  return ambulo_model_mass(model) * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
 /* ---------------------------------------------------- torque over strength */
@@ -171,8 +168,8 @@ double ambulo__upright_length(const ambulo_model *model, const int point[2]) {
               (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-static int two_directions(const ambulo__term_context *context) {
-  (void)context;
+static int two_directions(const ambulo_term *term, const ambulo__term_context *context) {
+  (void)term, (void)context;
   return 2;
 }
 
@@ -204,60 +201,6 @@ static void upright_form(const ambulo_term *term, const ambulo__term_context *co
   }
 }
 
-/* ------------------------------------------------------------ ground force */
-
-/* The total ground reaction stays near the body weight.
- *
- *     u_j = F_j / (m g) - n_j,   F the root force (15'), n the unit vector against gravity
- */
-
-static int each_axis(const ambulo__term_context *context) {
-  (void)context;
-  return 3;
-}
-
-/* (13.i) F / (m g) - n */
-static void ground_force_form(const ambulo_term *term, const ambulo__term_context *context,
-                              int node, int axis, ambulo__form *form) {
-  (void)term;
-  const double *g = ambulo_model_gravity(context->model);
-  double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), weight = body_weight(context->model);
-  int channel = ambulo__channel_force(&context->channels, axis);
-  form->u = ambulo__frame_value(context, node, channel) / weight + g[axis] / size;
-  ambulo__form_add(form, channel, 0, 1.0 / weight);
-}
-
-/* -------------------------------------------------------------- force rate */
-
-/* How fast the forces on contacts change.
- *
- *     u = (f(t_k+1) - f(t_k)) / (dt r m g),   r = 10 / s,   one residual per contact slot, axis and
- *     interval, booked on its first node (1: ten body weights a second)
- *
- * What shares the load among contacts prices forces, not their changes: loading fast would be free.
- */
-
-static const double reference_rate = 10.0; /* body weights per s: people's fastest at strike */
-
-static int each_force(const ambulo__term_context *context) {
-  return 3 * context->channels.slots;
-}
-
-/* (13.k) (f_k+1 - f_k) / (dt 10 m g) */
-static void force_rate_form(const ambulo_term *term, const ambulo__term_context *context, int node,
-                            int j, ambulo__form *form) {
-  (void)term;
-  double weight = body_weight(context->model);
-  double step = context->times[node + 1] - context->times[node];
-  double factor = 1.0 / (reference_rate * weight * step);
-  int channel = ambulo__channel_foot_force(&context->channels, j / 3, j % 3);
-  double now = ambulo__frame_value(context, node, channel);
-  double next = ambulo__frame_value(context, node + 1, channel);
-  form->u = form->difference = factor * (next - now);
-  ambulo__form_add(form, channel, 0, -factor);
-  ambulo__form_add(form, channel, 1, factor);
-}
-
 /* --------------------------------------------------------------- clearance */
 
 /* Feet in the air keep a height.
@@ -274,7 +217,8 @@ static void force_rate_form(const ambulo_term *term, const ambulo__term_context 
 
 enum { POINTS_OF_A_FOOT = 3 };
 
-static int each_foot_point(const ambulo__term_context *context) {
+static int each_foot_point(const ambulo_term *term, const ambulo__term_context *context) {
+  (void)term;
   return POINTS_OF_A_FOOT * ambulo_model_foot_count(context->model);
 }
 
@@ -307,6 +251,30 @@ static void clearance_form(const ambulo_term *term, const ambulo__term_context *
   }
 }
 
+/* ---------------------------------------------------------- points that are followed */
+
+/* Points of the body are near places of a reference, as markers on the skin were.
+ *
+ *     u_mi = scale_m (r_mi - reference_mi),   du/dr_mi = scale_m;   m a mark, i an axis of the
+ * world
+ */
+
+static int each_mark_axis(const ambulo_term *term, const ambulo__term_context *context) {
+  (void)context;
+  return 3 * term->mark_count;
+}
+
+/* (13.r) scale (r - reference) */
+static void point_tracking_form(const ambulo_term *term, const ambulo__term_context *context,
+                                int node, int j, ambulo__form *form) {
+  double scale = term->mark_scale ? term->mark_scale[j / 3] : 1.0;
+  double reference = term->mark_reference[3 * (size_t)node * (size_t)term->mark_count + (size_t)j];
+  if (scale == 0.0 || isnan(reference)) return;
+  int channel = ambulo__channel_point(&context->channels, term->marks[j / 3], j % 3);
+  form->u = scale * (ambulo__frame_value(context, node, channel) - reference);
+  ambulo__form_add(form, channel, 0, scale);
+}
+
 /* ----------------------------------------------------------- device effort */
 
 /* What devices do, where that is to cost something too.
@@ -314,7 +282,8 @@ static void clearance_form(const ambulo_term *term, const ambulo__term_context *
  *     u_i = scale_i E_i,   E_i the effort of device i, N m or N
  */
 
-static int each_device(const ambulo__term_context *context) {
+static int each_device(const ambulo_term *term, const ambulo__term_context *context) {
+  (void)term;
   return context->channels.devices;
 }
 
@@ -329,12 +298,6 @@ static void device_effort_form(const ambulo_term *term, const ambulo__term_conte
 }
 
 /* ------------------------------------------------------------------- the table */
-
-static const char *lacks_forces(const ambulo_problem_definition *d) {
-  return d->ground_reaction.kind == AMBULO_REACTION_NONE
-             ? "no forces on feet without ground_reaction; expected kind shared"
-             : NULL;
-}
 
 static const char *lacks_devices(const ambulo_problem_definition *d) {
   return d->device_count == 0 ? "there are no devices" : NULL;
@@ -372,17 +335,28 @@ static const ambulo__term_info kinds[] = {
     [AMBULO_UPRIGHT] = {"upright", AMBULO__TERM_OF_OTHERS, AMBULO__TERM_SQUARED, AMBULO__TERM_LINE,
                         .forms = two_directions, .form = upright_form,
                         .mirror = AMBULO__MIRROR_LINE},
-    [AMBULO_GROUND_FORCE] = {"ground_force", .forms = each_axis, .form = ground_force_form},
+    [AMBULO_GROUND_FORCE] = {"ground_force", .forms = ambulo__ground_force_forms,
+                             .form = ambulo__ground_force_form},
     [AMBULO_CLEARANCE] = {"clearance", .members = AMBULO__TERM_HEIGHT, .forms = each_foot_point,
                           .form = clearance_form},
-    [AMBULO_FORCE_RATE] = {"force_rate", .is_rate = 1, .weight_is_length = 1, .forms = each_force,
-                           .form = force_rate_form, .lacks = lacks_forces},
+    [AMBULO_FORCE_RATE] = {"force_rate", .is_rate = 1, .weight_is_length = 1,
+                           .forms = ambulo__force_rate_forms, .form = ambulo__force_rate_form,
+                           .lacks = ambulo__lacks_forces},
     [AMBULO_DEVICE_EFFORT] = {"device_effort", .members = AMBULO__TERM_DEVICES,
                               .forms = each_device, .form = device_effort_form,
                               .mirror = AMBULO__MIRROR_DEVICES, .lacks = lacks_devices},
     [AMBULO_MUSCLE_EFFORT] = {"muscle_effort", .members = AMBULO__TERM_MUSCLES,
                               .forms = ambulo__muscle_forms, .form = ambulo__muscle_form,
                               .whole = ambulo__muscle_value, .lacks = ambulo__muscle_lacks},
+    [AMBULO_POINT_TRACKING] = {"point_tracking", .members = AMBULO__TERM_MARKS,
+                               .forms = each_mark_axis, .form = point_tracking_form},
+    [AMBULO_FORCE_TRACKING] = {"force_tracking", .members = AMBULO__TERM_LOADS,
+                               .forms = ambulo__force_tracking_forms,
+                               .form = ambulo__force_tracking_form, .lacks = ambulo__lacks_forces},
+    [AMBULO_PRESSURE_TRACKING] = {"pressure_tracking", .members = AMBULO__TERM_LOADS,
+                                  .forms = ambulo__pressure_tracking_forms,
+                                  .form = ambulo__pressure_tracking_form,
+                                  .lacks = ambulo__lacks_forces},
     [AMBULO_USER_TERM] = {"user", .members = AMBULO__TERM_CALLBACK},
     [AMBULO_USER_SQUARE] = {"user_square", .members = AMBULO__TERM_CALLBACK},
 };

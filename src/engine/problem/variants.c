@@ -74,16 +74,16 @@ ambulo_status ambulo_problem_extend(const ambulo_problem *problem,
 
 /* ------------------------------------------------------------------ another grid */
 
-/* reference [count][d] at given times from that at the problem's nodes, linear in between */
-static void resample(const ambulo_problem *p, const double *source, const double *times, int count,
-                     double *target) {
-  size_t d = (size_t)p->coordinates;
+/* reference [count][width] at given times from that at the problem's nodes, linear in between; next
+ * to a gap there is a gap */
+static void resample(const ambulo_problem *p, const double *source, size_t width,
+                     const double *times, int count, double *target) {
   for (int k = 0; k < count; k++) {
     double part;
     size_t left = (size_t)ambulo__node_at(p, times[k], &part);
-    for (size_t i = 0; i < d; i++) {
-      double a = source[left * d + i], b = source[(left + 1) * d + i];
-      target[(size_t)k * d + i] = a + part * (b - a);
+    for (size_t i = 0; i < width; i++) {
+      double a = source[left * width + i], b = source[(left + 1) * width + i];
+      target[(size_t)k * width + i] = part == 0.0 ? a : part == 1.0 ? b : a + part * (b - a);
     }
   }
 }
@@ -91,18 +91,20 @@ static void resample(const ambulo_problem *p, const double *source, const double
 static ambulo_status resample_terms(const ambulo_problem *p, int intervals, const double *times,
                                     ambulo_term *terms, double **references) {
   const ambulo_problem_definition *d = &p->definition;
-  int count = 0;
-  size_t size = (size_t)(intervals + 1) * (size_t)p->coordinates;
-  for (int t = 0; t < d->term_count; t++) count += d->terms[t].reference != NULL;
-  *references = ambulo__alloc(&p->allocator, (size_t)count * size, sizeof(double));
+  size_t nodes = (size_t)intervals + 1, size = 0, width = 0;
+  for (int t = 0; t < d->term_count; t++) {
+    terms[t] = d->terms[t];
+    if (ambulo__term_reference(&terms[t], p->model, &width)) size += nodes * width;
+  }
+  *references = ambulo__alloc(&p->allocator, size, sizeof(double));
   if (!*references) return AMBULO_E_MEMORY;
   double *next = *references;
   for (int t = 0; t < d->term_count; t++) {
-    terms[t] = d->terms[t];
-    if (!terms[t].reference) continue;
-    resample(p, d->terms[t].reference, times, intervals + 1, next);
-    terms[t].reference = next;
-    next += size;
+    const double **followed = ambulo__term_reference(&terms[t], p->model, &width);
+    if (!followed) continue;
+    resample(p, *followed, width, times, intervals + 1, next);
+    *followed = next;
+    next += nodes * width;
   }
   return AMBULO_OK;
 }

@@ -56,6 +56,41 @@ static void add_load(ambulo__parameters *p, int i) {
                            keys->loads ? item[partner] : partner);
 }
 
+/* --------------------------------------------------------------------- drives */
+
+/* armature, damping, friction [3] */
+static double *drive_of(ambulo_coordinate *c, int part) {
+  double *const parts[] = {&c->armature, &c->damping, &c->friction};
+  return parts[part];
+}
+
+/* what one of a file's is in SI units */
+static double drive_unit(const ambulo__model_units *u, int turns, int part) {
+  double length = u->length, torque = turns ? u->moment : u->force;
+  if (part == 0) return turns ? u->mass * length * length : u->mass;
+  return part == 1 && !turns ? torque / length : torque;
+}
+
+/* of those that the file has: a number, or both sides', which move together */
+static void add_drive(ambulo__parameters *p, int i, int part) {
+  static const char *const keys[] = {"armature", "damping", "friction"};
+  const ambulo_model *model = p->problem->model;
+  ambulo_coordinate *c = &p->variant.coordinates[i];
+  double sign, *value = drive_of(c, part);
+  int m = ambulo__parameter_partner(p->problem, i, &sign), pair = m >= 0 && m != i;
+  if (*value == 0.0 || (pair && m < i)) return;
+  char label[AMBULO__PARAMETER_TEXT];
+  (void)snprintf(label, sizeof label, "%s of %s%s", keys[part], c->name,
+                 pair ? AMBULO__BOTH_OF_A_PAIR : "");
+  ambulo__parameter_add(p, AMBULO__RATIO, value, label, "model.links[%s].coordinate.%s",
+                        model->links[model->coordinate_written[i]].name, keys[part]);
+  ambulo__parameter_sized(p, drive_unit(&model->units, c->type == AMBULO_REVOLUTE, part));
+  if (pair)
+    ambulo__parameter_with(p, 1.0, drive_of(&p->variant.coordinates[m], part),
+                           "model.links[%s].coordinate.%s",
+                           model->links[model->coordinate_written[m]].name, keys[part]);
+}
+
 void ambulo__parameters_of_body(ambulo__parameters *p) {
   const ambulo__model_units *units = &p->problem->model->units;
   ambulo__body_numbers *body = &p->variant.body;
@@ -68,6 +103,8 @@ void ambulo__parameters_of_body(ambulo__parameters *p) {
     ambulo__parameter_within(p, 0.3, 3.0);
   }
   for (int i = 0; i < p->problem->model->load_count; i++) add_load(p, i);
+  for (int i = 0; i < p->problem->coordinates; i++)
+    for (int part = 0; part < 3; part++) add_drive(p, i, part);
   if (p->problem->definition.contact_count == 0) return;
   ambulo__parameter_add(p, AMBULO__ANGLE, &body->slope, "slope", "ground.slope");
   ambulo__parameter_within(p, -AMBULO__LARGEST_SLOPE, AMBULO__LARGEST_SLOPE);

@@ -52,7 +52,8 @@ static int of_two_times(const ambulo__gait_rule *rule) {
 /* references, tubes, functions of the caller */
 static int has_curves(const ambulo_problem_definition *d) {
   int some = d->user_row_count > 0 || d->tube_count > 0;
-  for (int t = 0; t < d->term_count; t++) some |= d->terms[t].function || d->terms[t].reference;
+  for (int t = 0; t < d->term_count; t++)
+    some |= d->terms[t].function || ambulo__term_follows(&d->terms[t]);
   return some;
 }
 

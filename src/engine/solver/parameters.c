@@ -80,9 +80,9 @@ static void change(const ambulo__variant *v, ambulo_model *m) {
   ambulo__model_load load[AMBULO__MOST_LOADS];
   int loads = m->load_count;
   for (int i = 0; i < m->coordinate_count; i++) {
-    memcpy(m->coordinates[i].range, v->coordinates[i].range, 2 * sizeof(double));
-    memcpy(m->coordinates[i].speed, v->coordinates[i].speed, 2 * sizeof(double));
-    memcpy(m->coordinates[i].torque, v->coordinates[i].torque, 2 * sizeof(double));
+    const char *name = m->coordinates[i].name;
+    m->coordinates[i] = v->coordinates[i];
+    m->coordinates[i].name = name;
   }
   if (!body_moved(v)) return;
   memcpy(load, m->loads, sizeof load);
@@ -350,6 +350,7 @@ double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__param
   if (!problem->keys.file) return 1.0;
   if (!of_model) return p->size * (turns ? problem->keys.radians : 1.0);
   if (turns) return units->angle;
+  if (p->quantity == AMBULO__RATIO) return p->size; /* a drive's */
   if (p->quantity == AMBULO__TORQUE) return units->moment;
   return p->quantity == AMBULO__FORCE ? units->force : units->length;
 }

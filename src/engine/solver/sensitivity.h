@@ -34,7 +34,7 @@ typedef struct ambulo__variant {
   ambulo_allocator allocator;
   const ambulo_problem *origin;
   ambulo_problem_definition definition; /* a copy, whose arrays may be written to */
-  ambulo_coordinate *coordinates;       /* [d] likewise: range, speed, torque count */
+  ambulo_coordinate *coordinates;       /* [d] likewise: limits and drives count */
   ambulo_muscle *muscles; /* [count] likewise: force, fiber, tendon; NULL: there are none */
   ambulo__body_numbers body;
   ambulo__gait_rule rule;

@@ -201,11 +201,15 @@ ambulo_status ambulo_solver_set_reference(ambulo_solver *s, int term, const doub
   if (!s || !reference || term < 0 || term >= s->problem->definition.term_count)
     return AMBULO_E_ARGUMENT;
   const ambulo_problem *p = s->problem;
-  double *own = (double *)p->definition.terms[term].reference; /* the copy's own */
-  size_t count = (size_t)p->nodes * (size_t)p->coordinates;
-  if (!own) return AMBULO_E_ARGUMENT;
+  ambulo_term *own_term = (ambulo_term *)&p->definition.terms[term]; /* the copy's own */
+  size_t width = 0;
+  const double **followed = ambulo__term_reference(own_term, p->model, &width);
+  if (!followed) return AMBULO_E_ARGUMENT;
+  double *own = (double *)*followed;
+  size_t count = (size_t)p->nodes * width;
+  int gaps = !ambulo__term_has(own_term, AMBULO__TERM_REFERENCE);
   for (size_t i = 0; i < count; i++)
-    if (!isfinite(reference[i])) return AMBULO_E_ARGUMENT;
+    if (!isfinite(reference[i]) && !(gaps && isnan(reference[i]))) return AMBULO_E_ARGUMENT;
   memcpy(own, reference, count * sizeof *own);
   forget_values(s);
   return AMBULO_OK;

@@ -66,20 +66,36 @@ static void read_arcs(const ambulo__reader *reader, const ambulo__yaml_node *nod
   ambulo__yaml_close(node);
 }
 
+static void read_sole(ambulo__reader *reader, const ambulo__yaml_node *item, ambulo_foot *foot) {
+  read_corners(reader, ambulo__yaml_require(item, "heel"), foot->heel);
+  read_corners(reader, ambulo__yaml_require(item, "toe"), foot->toe);
+  foot->heel_center = read_center(reader, item, "heel_center", foot->heel);
+  foot->toe_center = read_center(reader, item, "toe_center", foot->toe);
+  const ambulo__yaml_node *tip = ambulo__yaml_get(item, "tip");
+  foot->has_tip = tip != NULL;
+  foot->tip = tip ? point_at(reader, tip) : -1;
+  read_arcs(reader, ambulo__yaml_get(item, "arcs"), foot);
+}
+
+static void read_point_foot(ambulo__reader *reader, const ambulo__yaml_node *node,
+                            ambulo_foot *foot) {
+  int point = point_at(reader, node);
+  foot->heel[0] = foot->toe[0] = foot->heel_center = foot->toe_center = point;
+  foot->heel[1] = foot->toe[1] = foot->tip = foot->arc[0] = foot->arc[1] = -1;
+  foot->has_tip = foot->has_arcs = 0;
+}
+
 void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
   int count = reader->definition.foot_count;
   for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_foot *foot = &reader->feet[i];
     foot->name = ambulo__read_item_name(reader, item, AMBULO__LIST_FEET, i);
-    read_corners(reader, ambulo__yaml_require(item, "heel"), foot->heel);
-    read_corners(reader, ambulo__yaml_require(item, "toe"), foot->toe);
-    foot->heel_center = read_center(reader, item, "heel_center", foot->heel);
-    foot->toe_center = read_center(reader, item, "toe_center", foot->toe);
-    const ambulo__yaml_node *tip = ambulo__yaml_get(item, "tip");
-    foot->has_tip = tip != NULL;
-    foot->tip = tip ? point_at(reader, tip) : -1;
-    read_arcs(reader, ambulo__yaml_get(item, "arcs"), foot);
+    const ambulo__yaml_node *point = ambulo__yaml_get(item, "point");
+    if (point)
+      read_point_foot(reader, point, foot);
+    else
+      read_sole(reader, item, foot);
     ambulo__yaml_expect(item, "mirror");
     ambulo__yaml_close(item);
   }

@@ -42,6 +42,7 @@ static void release(ambulo__reader *r) {
                     r->capsules, r->origins,     r->rows,   r->row_places, r->row_names};
   for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
     ambulo__free(&r->allocator, blocks[i]);
+  ambulo__arena_free(&r->arena);
   for (int k = 0; k < AMBULO__MODEL_LISTS; k++) {
     ambulo__free(&r->allocator, r->names[k]);
     ambulo__free(&r->allocator, r->place_of[k]);
@@ -134,6 +135,7 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
   ambulo__reader reader = {.allocator = ambulo__allocator_or_default(allocator),
                            .diagnostics = diagnostics,
                            .document = document,
+                           .arena = {.allocator = ambulo__allocator_or_default(allocator)},
                            .definition = ambulo_model_definition_default()};
   reader.subject = *subject;
   read_document(&reader, subject);

@@ -69,6 +69,22 @@ static double sign_at(const ambulo__yaml_node *node) {
   return ambulo__yaml_choice(node, signs, 3, 0) == 1 ? -1 : 1;
 }
 
+/* Inertia has the unit of the bodies', damping that of torque by rad/s, or of force by length. */
+static void read_drive(ambulo__reader *reader, const ambulo__yaml_node *node,
+                       ambulo_coordinate *coordinate) {
+  int is_angle = coordinate->type == AMBULO_REVOLUTE;
+  double torque = is_angle ? reader->moment : reader->force, length = reader->length;
+  double inertia = is_angle ? reader->mass * length * length : reader->mass;
+  const ambulo__yaml_node *armature = ambulo__yaml_get(node, "armature");
+  const ambulo__yaml_node *damping = ambulo__yaml_get(node, "damping");
+  const ambulo__yaml_node *friction = ambulo__yaml_get(node, "friction");
+  if (armature) coordinate->armature = ambulo__read_scaled(reader, armature, inertia, 0);
+  if (damping)
+    coordinate->damping =
+        ambulo__read_scaled(reader, damping, is_angle ? torque : torque / length, 0);
+  if (friction) coordinate->friction = ambulo__read_scaled(reader, friction, torque, 0);
+}
+
 /* `node` may be NULL: a joint without limits, named after its link. */
 static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *node,
                             const ambulo_link *link, ambulo__place link_place) {
@@ -87,6 +103,7 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "torque"),
                         is_angle ? reader->moment : reader->force, 0, coordinate->torque);
+  read_drive(reader, node, coordinate);
   const ambulo__yaml_node *start = ambulo__yaml_get(node, "default");
   if (start)
     coordinate->default_value = is_angle ? ambulo__read_angle(reader, start, unit)
@@ -106,7 +123,14 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   if (!ambulo__read_origin(reader, item, index)) read_dh(reader, item, link);
   ambulo__read_body(reader, item, link);
   const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
-  if (link->type != AMBULO_FIXED) {
+  const ambulo__yaml_node *coupled = ambulo__yaml_get(item, "coupled");
+  if (coupled) {
+    if (coordinate || (link->type == AMBULO_FIXED && choice == 0))
+      (void)ambulo__yaml_error(coupled, AMBULO_E_SCHEMA, NULL,
+                               "link '%s' is coupled and %s; expected a joint that moves, without "
+                               "a coordinate of its own",
+                               link->name, coordinate ? "has a coordinate" : "fixed");
+  } else if (link->type != AMBULO_FIXED) {
     read_coordinate(reader, coordinate, link, reader->place_of[AMBULO__LIST_LINKS][index]);
   } else if (coordinate && choice == 0) {
     (void)ambulo__yaml_error(coordinate, AMBULO_E_SCHEMA, NULL,
@@ -115,12 +139,14 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   ambulo__yaml_close(item);
 }
 
-/* Mirror images can be resolved once all coordinates have names. */
+/* Mirror images, and what joints follow, can be resolved once all coordinates have names. */
 static void read_mirrors(ambulo__reader *reader, const ambulo__yaml_node *list) {
   for (int i = 0, index = 0; i < reader->definition.link_count; i++) {
-    if (reader->links[i].type == AMBULO_FIXED) continue;
-    const ambulo__yaml_node *coordinate =
-        ambulo__yaml_get(ambulo__yaml_item(list, i), "coordinate");
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    const ambulo__yaml_node *coupled = ambulo__yaml_get(item, "coupled");
+    if (coupled) ambulo__read_coupling(reader, coupled, &reader->links[i]);
+    if (coupled || reader->links[i].type == AMBULO_FIXED) continue;
+    const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
     reader->coordinates[index++].mirror = ambulo__read_reference(
         reader, ambulo__yaml_get(coordinate, "mirror"), AMBULO__LIST_COORDINATES);
   }

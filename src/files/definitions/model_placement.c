@@ -97,6 +97,15 @@ static void name_row(char *text, const char *name, int link, const char *part) {
     (void)snprintf(text, TEXT, "link%d.%s", link + 1, part);
 }
 
+/* The row that moves has the function of a coupled joint, the others have none. */
+static void move_function(ambulo_link *row, const ambulo_link *link, int moves) {
+  const ambulo_link none = ambulo_link_default(), *from = moves ? link : &none;
+  row->coupled_to = from->coupled_to;
+  row->spline = from->spline;
+  row->spline_count = from->spline_count;
+  memcpy(row->polynomial, from->polynomial, sizeof row->polynomial);
+}
+
 /* Appends the rows of file link i; returns how many. Bodies go with the last. */
 static int append_rows(ambulo__reader *reader, int i, ambulo_link *links, char *texts) {
   const ambulo_link *link = &reader->links[i];
@@ -110,6 +119,7 @@ static int append_rows(ambulo__reader *reader, int i, ambulo_link *links, char *
                                                             : "turn";
     *target = k == count - 1 ? *link : ambulo_link_default();
     target->type = row[k].type;
+    move_function(target, link, k == o->joint);
     target->theta = row[k].theta;
     target->d = row[k].d;
     target->a = row[k].a;

@@ -6,6 +6,7 @@
 #ifndef AMBULO_DEFINITIONS_MODEL_READER_H
 #define AMBULO_DEFINITIONS_MODEL_READER_H
 
+#include "formats/arena.h"
 #include "formats/inputs.h"
 #include "formats/yaml_node.h"
 #include "ambulo/tools/load.h"
@@ -29,6 +30,7 @@ typedef struct ambulo__reader {
   ambulo_diagnostics *diagnostics;
   ambulo__yaml *document;
   ambulo_status status; /* first fault that the document does not know of */
+  ambulo__arena arena;  /* points of splines */
 
   ambulo_subject subject; /* the caller's, completed by the file's */
   /* factors from the units of the file to SI */
@@ -106,6 +108,9 @@ void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root)
 void ambulo__read_units(ambulo__reader *reader, const ambulo__yaml_node *root,
                         const ambulo_subject *asked);
 void ambulo__read_links(ambulo__reader *reader, const ambulo__yaml_node *list);
+/* `coupled` of a link, once all coordinates are known. */
+void ambulo__read_coupling(ambulo__reader *reader, const ambulo__yaml_node *node,
+                           ambulo_link *link);
 /* `origin` and `axis` of a link; 0 if it has neither. */
 int ambulo__read_origin(ambulo__reader *reader, const ambulo__yaml_node *item, int index);
 ambulo__origin *ambulo__origins_create(const ambulo_allocator *allocator, int links);

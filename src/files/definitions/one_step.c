@@ -31,7 +31,7 @@ static int has_timed_loads(const ambulo_problem_definition *d) {
 
 static int has_references(const ambulo_problem_definition *d) {
   int references = d->tube_count > 0;
-  for (int t = 0; t < d->term_count; t++) references |= d->terms[t].reference != NULL;
+  for (int t = 0; t < d->term_count; t++) references |= ambulo__term_follows(&d->terms[t]);
   return references;
 }
 

@@ -211,6 +211,8 @@ static void read_members(ambulo__problem_reader *reader, const ambulo__yaml_node
   }
   if (has & AMBULO__TERM_DEVICES)
     term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
+  if (has & AMBULO__TERM_MARKS) ambulo__read_marks(reader, node, term);
+  if (has & AMBULO__TERM_LOADS) ambulo__read_foot_loads(reader, node, term);
   if (has & AMBULO__TERM_HEIGHT)
     term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
 }

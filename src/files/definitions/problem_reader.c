@@ -287,11 +287,16 @@ static const char *name_of(const ambulo_model *m, ambulo__named kind, int i) {
 
 int ambulo__read_name_of(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo__named kind) {
+  return ambulo__find_name_of(reader, node, ambulo__yaml_name(node), kind);
+}
+
+int ambulo__find_name_of(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         const char *name, ambulo__named kind) {
   static const char *const words[] = {"link", "coordinate", "point", "foot", "capsule"};
   const ambulo_model *m = reader->model;
   const int counts[] = {m->link_count, m->coordinate_count, m->point_count, m->foot_count,
                         m->capsule_count};
-  const char *name = ambulo__yaml_name(node), *what = words[kind];
+  const char *what = words[kind];
   size_t count = (size_t)counts[kind];
   if (!name[0]) return -1;
   const char **names = ambulo__reader_alloc(reader, count, sizeof *names);

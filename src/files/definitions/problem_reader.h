@@ -9,6 +9,7 @@
 
 #include "ambulo/solve.h"
 #include "ambulo/tools/load.h"
+#include "formats/motion_file.h"
 #include "formats/yaml_node.h"
 #include "problem/members.h"
 #include "problem/nlp.h"
@@ -85,6 +86,9 @@ typedef enum ambulo__named {
 /* The index of what a node names; -1 without a node, or after an error with the nearest name. */
 int ambulo__read_name_of(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo__named kind);
+/* The same of a name that stands at a node, such as a key beside its value. */
+int ambulo__find_name_of(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         const char *name, ambulo__named kind);
 
 /* A value of coordinate i or of its rates in SI units and radians; the file's unit of angle
  * applies to revolute coordinates. */
@@ -122,6 +126,19 @@ const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
 const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, int samples,
                                           double *scale);
+/* The table of a reference, which lasts as long as the problem; the caller frees it. `gaps`: cells
+ * may be "nan", and markers of a TRC file are taken. NULL when something was wrong. */
+ambulo__motion *ambulo__open_reference(ambulo__problem_reader *reader,
+                                       const ambulo__yaml_node *node, int gaps);
+/* Where terms look at it: the time nodes, [intervals + 1]. After all that events depend on. */
+const double *ambulo__reference_times(ambulo__problem_reader *reader);
+/* A column of it, `time` after its first row, linear between rows; next to a gap there is a gap. */
+double ambulo__reference_at(const ambulo__motion *motion, int column, double time);
+/* Members of terms that follow points, or forces and centres of pressure of feet. */
+void ambulo__read_marks(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                        ambulo_term *term);
+void ambulo__read_foot_loads(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                             ambulo_term *term);
 /* `constraints.collision`, `constraints.reach`, `obstacles`. */
 void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `devices`: springs, dampers and actuators that the body wears. */

@@ -7,7 +7,7 @@
  */
 #include "contact/schedule.h"
 #include "definitions/problem_reader.h"
-#include "formats/motion_file.h"
+#include "formats/marker_file.h"
 
 #include <math.h>
 
@@ -69,9 +69,9 @@ static void doubt_times(const ambulo__motion *motion, double duration,
                        duration);
 }
 
-/* value of a column at `time` of the file */
-static double sample(const ambulo__motion *motion, int column, double time) {
+double ambulo__reference_at(const ambulo__motion *motion, int column, double time) {
   int low = 0, high = motion->rows - 1;
+  time += motion->time[0];
   if (high == 0) return motion->values[column];
   while (high - low > 1) {
     int middle = low + (high - low) / 2;
@@ -86,7 +86,7 @@ static double sample(const ambulo__motion *motion, int column, double time) {
   const double *values = motion->values + column;
   double a = values[(size_t)low * (size_t)motion->columns];
   double b = values[(size_t)high * (size_t)motion->columns];
-  return a + s * (b - a);
+  return s == 0.0 ? a : s == 1.0 ? b : a + s * (b - a);
 }
 
 /* Where a reference is asked for, from its first time on. */
@@ -113,8 +113,8 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
     for (int k = 0; k < samples; k++) {
       double time =
           wanted->times ? wanted->times[k] : (double)k * d->duration / (double)(samples - 1);
-      time += motion->time[0];
-      reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column[i], time);
+      reference[(size_t)k * (size_t)coordinates + (size_t)i] =
+          ambulo__reference_at(motion, column[i], time);
     }
   }
   if (found > 0) return reference;
@@ -123,52 +123,73 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
   return NULL;
 }
 
-static const double *read_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                                 const sampling *wanted, double *scale) {
+static ambulo_status read_table(ambulo__problem_reader *reader, const char *path, int gaps,
+                                ambulo__motion **motion) {
+  if (gaps && ambulo__is_marker_file(path))
+    return ambulo__markers_read_input(&reader->inputs, path, &reader->allocator,
+                                      reader->diagnostics, motion);
+  return ambulo__motion_read_input(&reader->inputs, path, gaps, &reader->allocator,
+                                   reader->diagnostics, motion);
+}
+
+ambulo__motion *ambulo__open_reference(ambulo__problem_reader *reader,
+                                       const ambulo__yaml_node *node, int gaps) {
   const char *name = ambulo__yaml_file_name(node);
   const char *path = name[0] ? ambulo__reader_path(reader, node, name) : NULL;
   if (!path) return NULL;
   ambulo__motion *motion = NULL;
-  ambulo_status status = ambulo__motion_read_input(&reader->inputs, path, 0, &reader->allocator,
-                                                   reader->diagnostics, &motion);
+  ambulo_status status = read_table(reader, path, gaps, &motion);
   if (status) {
     reader->failure = status;
     (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);
     return NULL;
   }
-  const double *reference = NULL;
   double lasts = motion->rows > 0 ? motion->time[motion->rows - 1] - motion->time[0] : 0.0;
   double duration = reader->definition.duration;
   if (motion->rows < 1 || lasts < duration - 1e-6 * duration) {
     (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
                              "the reference lasts %.6g s; expected at least the duration, %.6g s",
                              lasts, duration);
-  } else {
-    const int *column = find_columns(reader, motion, path, node);
-    if (column) to_radians(reader, motion, column);
-    if (column) doubt_units(reader, motion, column, node);
-    doubt_times(motion, duration, node);
-    if (motion->declared_columns >= 0 && motion->declared_columns != motion->columns + 1)
-      ambulo__yaml_warning(node, NULL,
-                           "the reference has %d columns; its header says %d (nColumns)",
-                           motion->columns + 1, motion->declared_columns);
-    if (column) reference = resample(reader, motion, column, node, wanted, scale);
+    ambulo__motion_free(motion);
+    return NULL;
   }
+  doubt_times(motion, duration, node);
+  if (motion->declared_columns >= 0 && motion->declared_columns != motion->columns + 1)
+    ambulo__yaml_warning(node, NULL, "the reference has %d columns; its header says %d (nColumns)",
+                         motion->columns + 1, motion->declared_columns);
+  return motion;
+}
+
+static const double *read_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                 const sampling *wanted, double *scale) {
+  ambulo__motion *motion = ambulo__open_reference(reader, node, 0);
+  if (!motion) return NULL;
+  const double *reference = NULL;
+  const int *column = find_columns(reader, motion, ambulo__yaml_file_name(node), node);
+  if (column) to_radians(reader, motion, column);
+  if (column) doubt_units(reader, motion, column, node);
+  if (column) reference = resample(reader, motion, column, node, wanted, scale);
   ambulo__motion_free(motion);
   return reference;
 }
 
+const double *ambulo__reference_times(ambulo__problem_reader *reader) {
+  const ambulo_problem_definition *d = &reader->definition;
+  int count = d->intervals + 1;
+  double *times = ambulo__reader_alloc(reader, (size_t)count, sizeof *times);
+  if (!times) return NULL;
+  /* too few intervals for events are reported when the problem is built */
+  int known = d->grid != AMBULO_GRID_UNIFORM &&
+              ambulo__node_times(d, &reader->allocator, NULL, times) == AMBULO_OK;
+  for (int k = 0; !known && k < count; k++)
+    times[k] = (double)k * d->duration / (double)d->intervals;
+  return times;
+}
+
 const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, double *scale) {
-  const ambulo_problem_definition *d = &reader->definition;
-  sampling nodes = {d->intervals + 1, NULL};
-  if (d->grid != AMBULO_GRID_UNIFORM) {
-    double *times = ambulo__reader_alloc(reader, (size_t)nodes.samples, sizeof *times);
-    if (!times) return NULL;
-    /* too few intervals are reported when the problem is built */
-    if (ambulo__node_times(d, &reader->allocator, NULL, times) == AMBULO_OK) nodes.times = times;
-  }
-  return read_motion(reader, node, &nodes, scale);
+  sampling nodes = {reader->definition.intervals + 1, ambulo__reference_times(reader)};
+  return nodes.times ? read_motion(reader, node, &nodes, scale) : NULL;
 }
 
 const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,

@@ -103,6 +103,11 @@ static ambulo_status read_count(const header_reader *reader, const ambulo__table
                        ambulo__table_quoted(value), value->start);
 }
 
+static ambulo_status read_rows(const header_reader *reader, const ambulo__table_cell *value) {
+  reader->header->rows_line = reader->line->number;
+  return read_count(reader, value, &reader->header->declared_rows);
+}
+
 static ambulo_status read_degrees(const header_reader *reader, const ambulo__table_cell *value) {
   int yes = ambulo__table_cell_is(value, "yes");
   if (!yes && !ambulo__table_cell_is(value, "no"))
@@ -122,8 +127,7 @@ static ambulo_status read_words(const header_reader *reader) {
       !ambulo__table_next_cell(reader->line, AMBULO__CELLS_BLANK, &position, &value) ||
       ambulo__table_next_cell(reader->line, AMBULO__CELLS_BLANK, &position, &rest))
     return AMBULO_OK;
-  if (ambulo__table_cell_is(&key, "datarows"))
-    return read_count(reader, &value, &reader->header->declared_rows);
+  if (ambulo__table_cell_is(&key, "datarows")) return read_rows(reader, &value);
   if (ambulo__table_cell_is(&key, "datacolumns"))
     return read_count(reader, &value, &reader->header->declared_columns);
   return AMBULO_OK;
@@ -148,7 +152,7 @@ static ambulo_status read_key(const header_reader *reader, size_t from, int is_s
   if (!is_sto) return AMBULO_OK;
   if (ambulo__table_cell_is(&key, "version")) reader->header->has_version = 1;
   if (ambulo__table_cell_is(&key, "nRows") || ambulo__table_cell_is(&key, "datarows"))
-    return read_count(reader, &value, &reader->header->declared_rows);
+    return read_rows(reader, &value);
   if (ambulo__table_cell_is(&key, "nColumns") || ambulo__table_cell_is(&key, "datacolumns"))
     return read_count(reader, &value, &reader->header->declared_columns);
   return AMBULO_OK;

@@ -5,7 +5,8 @@
  *   STO, MOT (OpenSim)  a title and key=value lines up to "endheader", then columns
  *        separated by tabs or spaces; inDegrees=yes|no states the unit of angles, which are in
  *        degrees where there is no version=... either, as OpenSim takes files of SIMM. nRows, where
- *        given, must agree with the table (a cut-off file is noticed); nColumns should.
+ *        given, is not more than the table has (a cut-off file is noticed); less, and another
+ *        nColumns, are warned of.
  * A comment "# inDegrees=yes" says the same in a CSV. The first column is "time" (s),
  * strictly increasing (but rows of an STO that repeat the one before, which are left out); names
  * are unique; every number is finite, except that points of the
@@ -81,6 +82,7 @@ typedef struct ambulo__table_header {
   int in_degrees, unit_stated;               /* unit of angles, and whether the file says so */
   int has_version;                           /* a line version=...: not of SIMM */
   long long declared_rows, declared_columns; /* -1: not stated */
+  int rows_line;                             /* where the former is */
   double body_mass, gravity[3];              /* kg, m/s^2; mass NaN: not stated */
 } ambulo__table_header;
 

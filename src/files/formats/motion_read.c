@@ -265,8 +265,13 @@ static ambulo_status read_rows(table_reader *reader) {
     ambulo__warning(reader->diagnostics, start, NULL,
                     "%d rows say the same as the row before, time and all: they are left out",
                     rows - kept);
-  if (reader->header.declared_rows >= 0 && reader->header.declared_rows != rows) {
-    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, start,
+  ambulo__place declared = {.file = reader->file, .line = reader->header.rows_line};
+  if (reader->header.declared_rows >= 0 && reader->header.declared_rows < rows)
+    ambulo__warning(reader->diagnostics, declared, NULL,
+                    "%d rows, where nRows says %lld: all are taken", rows,
+                    reader->header.declared_rows);
+  if (reader->header.declared_rows > rows) {
+    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, declared,
                                 "where the file is whole, write its number of rows behind nRows=",
                                 "%d rows; expected %lld (nRows): the file may be cut off", rows,
                                 reader->header.declared_rows));

@@ -15,6 +15,7 @@ static const ambulo__usual rows[] = {
     ROW(ambulo_problem_text, 1, {0}),
     ROW(ambulo_report_options, 1, {0}),
     ROW(ambulo_picture_options, 1, {.millimetres = AMBULO_OFF, .dots_per_inch = 300.0}),
+    ROW(ambulo_film_options, 1, {.rate = AMBULO_OFF, .speed = 1.0, .times = 2}),
     ROW(ambulo_page_options, 1, {.from = -INFINITY, .to = INFINITY, .megabytes = 3.0}),
     ROW(ambulo_compare_options, 1,
         {.pelvic_tilt = 0.19896753472735357, /* 11.4 degrees */
@@ -27,6 +28,8 @@ static const ambulo__usual rows[] = {
          .force_time_unit = 1.0,
          .cutoff = AMBULO_OFF,
          .force_cutoff = AMBULO_OFF,
+         .from = AMBULO_OFF,
+         .to = AMBULO_OFF,
          .filter_order = 4}),
     ROW(ambulo_inverse_outputs, 1, {0}),
     ROW(ambulo_muscle_options, 1,

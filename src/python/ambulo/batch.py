@@ -18,7 +18,7 @@ NULL = ffi.NULL
 
 
 def _show(now):
-    print_line(f"{now.done} of {now.cases} done, {now.failed} without a solution{left_of(now.seconds_left)}")
+    print_line(f"{now.done - now.no_result} of {now.cases} done, {now.failed} without a solution{left_of(now.seconds_left)}")
 
 
 class Batch(Owner):
@@ -284,7 +284,7 @@ class Study:
 
     def __repr__(self):
         census = self.status()
-        return (f"<Study {self.folder}: {census.done} of {census.cases} cases done, "
+        return (f"<Study {self.folder}: {census.done - census.no_result} of {census.cases} cases done, "
                 f"{census.failed} without a solution>")
 
 

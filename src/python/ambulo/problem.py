@@ -420,6 +420,6 @@ def _carrier(model, intervals, spline_intervals, devices):
         functions.append((made, given))
         return made
 
-    sizes = {"d": coordinates, "devices": devices, "nodes": int(intervals) + 1,
-             "knots": int(spline_intervals) + 1}
+    sizes = {"d": coordinates, "feet": len(model.feet), "devices": devices,
+             "nodes": int(intervals) + 1, "knots": int(spline_intervals) + 1}
     return Carrier(sizes, model.find, function), functions

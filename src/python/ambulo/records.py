@@ -295,7 +295,8 @@ class Carrier:
         own = record.__dict__
         if "samples" in own and "samples" in shape and not own["samples"]:
             struct.samples = value.shape[0]
-        sizes = dict(self.sizes, samples=getattr(struct, "samples", 0))
+        sizes = dict(self.sizes, samples=getattr(struct, "samples", 0),
+                     marks=getattr(struct, "mark_count", 0))
         expected = tuple(sizes[s] if isinstance(s, str) else s for s in shape)
         if value.shape != expected:
             raise ValueError(f"got an array {list(value.shape)}; expected {list(expected)}, "

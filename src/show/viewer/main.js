@@ -4,6 +4,7 @@ import { spoken, unpack } from "./decode.js";
 import { inflated } from "./inflated.js";
 import { Cases } from "./cases.js";
 import { Charts } from "./charts.js";
+import { Film, canFilm, savePicture } from "./film.js";
 import { failure, panels } from "./panels.js";
 import { Stage, hasWebGL } from "./stage.js";
 import { Study, tone } from "./study.js";
@@ -26,7 +27,7 @@ const cases = data.study && new Cases(data.study.motions);
 
 const page = {
   results: (data.results ?? []).map(opened),
-  main: 0, ghost: -1, stage: null, charts: null,
+  main: 0, ghost: -1, apart: hash.get("with") === "apart", stage: null, charts: null,
   time: 0, period: 0, playing: false, speed: 1,
 };
 
@@ -86,6 +87,11 @@ function tick(now) {
   const step = Math.min(Math.max((now - last) / 1000, 0), 0.1) * page.speed;
   last = now;
   let time = page.time + step, { period } = page;
+  if (page.film && time >= scene.duration) {
+    setTime(scene.duration, 0);
+    play(false);
+    return;
+  }
   if (page.pause > 0) page.pause -= step / page.speed;
   else if (time >= scene.duration) {
     if (goesOn(scene)) {
@@ -120,7 +126,28 @@ function play(on) {
     if (page.time >= scene.duration) page.time = 0;
     last = performance.now();
     requestAnimationFrame(tick);
-  }
+  } else endFilm();
+}
+
+// from the beginning to the end once, at the speed that is chosen; stopped before, nothing is saved
+function film() {
+  const scene = sceneOf(page.results[page.main]);
+  if (page.film) return play(false);
+  play(false);
+  setTime(0, 0);
+  page.film = new Film(page.stage, page.results[page.main].name);
+  byId("film").textContent = "Stop";
+  byId("film").title = `${seconds(scene.duration / page.speed)} of film`;
+  return play(true);
+}
+
+function endFilm() {
+  const { film: made } = page;
+  if (!made) return;
+  page.film = null;
+  byId("film").textContent = "Film";
+  if (page.time >= sceneOf(page.results[page.main]).duration) made.end();
+  else made.cancel();
 }
 
 function step(frames) {
@@ -173,6 +200,9 @@ function connect() {
   }
   byId("theme").addEventListener("click", () => setTheme(css("--is-dark") === "1" ? "light" : "dark"));
   byId("print").addEventListener("click", () => print());
+  byId("picture").addEventListener("click", () => savePicture(page.stage, page.results[page.main].name));
+  byId("film").addEventListener("click", film);
+  byId("film").hidden = !canFilm || !page.stage;
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => setTheme(
     document.documentElement.dataset.theme));
   let before;
@@ -242,8 +272,13 @@ function choosers() {
   const motions = names.filter(([, i]) => page.results[i].summary.verdict);
   box.replaceChildren(
     data.study || motions.length < 2 ? "" : select("motion", page.main, motions, (i) => show(i, page.ghost === i ? -1 : page.ghost)),
-    select("beside it", page.ghost, [["nothing", -1], ...names.filter(([, i]) => i !== page.main)],
-      (i) => show(page.main, i)));
+    select("with", page.ghost, [["nothing", -1], ...names.filter(([, i]) => i !== page.main)],
+      (i) => show(page.main, i)),
+    page.ghost < 0 || !page.stage ? "" : select("shown", Number(page.apart), [["overlaid", 0], ["side by side", 1]],
+      (i) => {
+        page.apart = Boolean(i);
+        show(page.main, page.ghost);
+      }));
 }
 
 // the picture of the folder; in place of the view where there is none
@@ -259,6 +294,7 @@ function showStrip(strip) {
 }
 
 function show(main, ghost) {
+  if (page.film) play(false);
   const time = page.main === main ? page.time : 0;
   page.main = main;
   page.ghost = ghost;
@@ -266,12 +302,16 @@ function show(main, ghost) {
   heading(result);
   lanes(scene);
   page.charts?.destroy();
+  const apart = Boolean(page.stage && other && page.apart);
+  byId("apart").hidden = !apart;
+  byId("apart").replaceChildren(...(apart ? [result, other].map((r) => el("span", {}, r.name)) : []));
   if (page.stage) {
+    page.stage.apart = apart;
     page.stage.load(scene, other ? sceneOf(other) : null);
     if (page.stage.view) page.stage.frame(page.stage.view);
   }
   document.querySelectorAll("[data-needs]").forEach((node) => {
-    const need = { forces: scene.forces.length, ghost: Boolean(other), feet: scene.feet.length,
+    const need = { forces: scene.forces.length, ghost: Boolean(other) && !apart, feet: scene.feet.length,
       muscles: Boolean(scene.muscles), joints: Boolean(scene.muscles?.joints.length),
       sides: scene.bones.some((b) => b.side !== "middle") }[node.dataset.needs];
     node.hidden = !need;

@@ -1,16 +1,14 @@
-// The view in space: camera, light, body, world, forces; drawn only when something changed.
+// The view in space: camera, light, one motion or two; drawn only when something changed.
 import {
-  AmbientLight, DirectionalLight, Fog, Group, HemisphereLight, Mesh, MeshBasicMaterial,
-  PCFShadowMap, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  AmbientLight, DirectionalLight, Fog, Group, HemisphereLight, PCFShadowMap, PerspectiveCamera, Scene,
+  Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Actor } from "./actor.js";
 import { css } from "./dom.js";
 import { sampleAt, valueAt } from "./decode.js";
-import { Figure, toView } from "./figure.js";
-import { Muscles } from "./muscles.js";
-import { Arrow, World } from "./world.js";
+import { Figure } from "./figure.js";
 
-const forceLength = 0.9; // m for the body weight
 const names = ["left", "right", "middle", "carried", "device", "ghost", "floor", "grid", "step",
   "step2", "obstacle", "place", "pressure", "force", "mass", "sky", "muscle", "active", "contact"];
 const readColors = () => Object.fromEntries(names.map((n) => [n, css(`--${n}`)]));
@@ -46,6 +44,7 @@ export class Stage {
       ghost: true, follow: true, muscles: true, contacts: false };
     this.time = 0;
     this.period = 0;
+    this.apart = false; // two motions side by side
     this.focus = new Vector3();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
@@ -69,84 +68,60 @@ export class Stage {
     this.frame();
   }
 
+  // another motion is a ghost in the place of the first one's body, or an actor in a picture of its own
   build() {
     this.root.clear();
     const colors = this.colors = readColors();
     const { data, ghostData } = this;
-    this.world = new World(data, colors);
-    this.figure = new Figure(data, colors, false);
-    this.figures = new Group();
-    this.figures.add(this.figure.group);
-    this.ghost = null;
-    if (ghostData) {
+    this.actor = new Actor(data, colors);
+    this.root.add(this.actor.root);
+    this.ghost = this.second = null;
+    if (ghostData && this.apart) {
+      this.second = new Actor(ghostData, colors);
+      this.root.add(this.second.root);
+    } else if (ghostData) {
       const c = colors.ghost;
       this.ghost = new Figure(ghostData, { left: c, right: c, middle: c, carried: c, device: c }, true);
-      this.figures.add(this.ghost.group);
+      this.actor.figures.add(this.ghost.group);
     }
-    this.arrows = data.forces.map((f) => ({ force: f, arrow: new Arrow(colors.force) }));
-    for (const { arrow } of this.arrows) this.figures.add(arrow.group);
-    this.muscles = data.muscles && new Muscles(data, colors);
-    if (this.muscles) this.figures.add(this.muscles.group);
-    this.massBall = new Mesh(new SphereGeometry(0.045, 20, 14),
-      new MeshBasicMaterial({ color: colors.mass, depthTest: false, transparent: true }));
-    this.massBall.renderOrder = 5;
-    this.figures.add(this.massBall);
-    this.root.add(this.world.group, this.figures);
-    this.root.rotation.z = data.ground.slope;
     this.renderer.setClearColor(colors.sky);
     this.scene.fog = new Fog(colors.sky, 9, 24);
-    this.copies();
+    this.setAspect();
     this.show({});
-  }
-
-  // prints and paths of the periods before and behind
-  copies() {
-    const { data, world } = this;
-    if (!data.repeats || !data.travel) return;
-    for (const n of [-1, 1, 2]) {
-      const copy = world.repeated.clone();
-      copy.position.set(n * data.travel, n * data.rise, 0);
-      world.repeated.add(copy);
-    }
   }
 
   show(change) {
     Object.assign(this.shows, change);
-    const { shows, world } = this;
-    world.repeated.traverse((o) => {
-      if (o.isInstancedMesh) o.visible = shows.paths;
-      else if (o.isMesh) o.visible = shows.prints;
-    });
-    this.figure.showBones(shows.bones, shows.bones || Boolean(this.muscles && shows.muscles));
+    const { shows } = this;
+    this.actor.show(shows);
+    this.second?.show(shows);
     if (this.ghost) this.ghost.group.visible = shows.ghost;
-    this.massBall.visible = shows.mass;
     this.moveTo(this.time, this.period, this.ghostTime);
   }
 
-  // a period of a motion that repeats is drawn further on
   moveTo(time, period, ghostTime) {
-    const { data } = this;
+    const { data, actor, second, shows } = this;
     this.time = time;
     this.period = period;
     this.ghostTime = ghostTime;
-    this.figure.pose(time);
-    const shift = period * (data.travel ?? 0), rise = period * (data.rise ?? 0);
-    this.figures.position.set(shift, rise, 0);
-    this.world.repeated.position.set(shift, rise, 0);
-    const where = sampleAt(data, time);
-    const mass = data.center_of_mass.map((x) => valueAt(x, where));
-    toView(...mass, this.massBall.position);
-    if (this.ghost) this.placeGhost(where, ghostTime);
-    this.placeArrows(where);
-    this.muscles?.pose(where, this.shows);
-    const center = toView(...mass).add(this.figures.position).applyAxisAngle(
-      new Vector3(0, 0, 1), data.ground.slope);
-    if (this.shows.follow && data.ground.is_there) this.goAlong(center);
-    this.world.follow(mass[0] + shift);
+    const center = actor.centerAt(time, period);
+    actor.moveTo(time, period, shows, this.camera);
+    if (this.ghost) this.placeGhost(sampleAt(data, time), ghostTime);
+    if (second) this.placeSecond(center, second);
+    if (shows.follow && data.ground.is_there) this.goAlong(center);
     this.sun.target.position.copy(center);
     this.sun.position.copy(center).add(new Vector3(1.6, 4.6, 2.4));
-    this.world.at(time, this.camera);
     this.draw();
+  }
+
+  // before the same camera, wherever its own way leads; it walks on as often as the first
+  placeSecond(center, second) {
+    const { shows, ghostTime, period } = this, moves = shows.follow && this.data.ground.is_there;
+    const own = second.data.repeats ? period : 0;
+    second.moveTo(ghostTime, own, shows, this.camera);
+    second.root.position.copy(moves ? center : this.actor.centerAt(0))
+      .sub(moves ? second.centerAt(ghostTime, own) : second.centerAt(0));
+    if (!this.followsHeight()) second.root.position.y = 0;
   }
 
   // beside the body, wherever its own way has led it
@@ -157,19 +132,6 @@ export class Stage {
     const at = (s, i, w) => valueAt(s.center_of_mass[i], w);
     this.ghost.group.position.set(at(this.data, 0, where) - at(g, 0, there), 0,
       -(at(this.data, 1, where) - at(g, 1, there)));
-  }
-
-  placeArrows(where) {
-    const force = new Vector3(), at = new Vector3();
-    for (const { force: f, arrow } of this.arrows) {
-      toView(...f.force.map((x) => valueAt(x, where)), force);
-      toView(...f.pressure.map((x) => valueAt(x, where)), at);
-      const length = (force.length() / this.data.weight) * forceLength;
-      // a foot in the air has no center of pressure: none is drawn between two that are far apart
-      const [k] = where;
-      const jump = Math.hypot(...f.pressure.map((x) => x[k + 1] - x[k])) > 0.2;
-      arrow.set(at, force, this.shows.forces && !jump ? length : 0);
-    }
   }
 
   goAlong(center) {
@@ -191,8 +153,8 @@ export class Stage {
   // also from the rearmost to the foremost, around a middle of its own
   size() {
     const ends = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const p of this.data.points) {
-      for (let k = 0; k < this.data.samples; k += 8) {
+    for (const { points, samples } of this.second ? [this.data, this.second.data] : [this.data]) for (const p of points) {
+      for (let k = 0; k < samples; k += 8) {
         [0, 2].forEach((axis, i) => {
           ends[2 * i] = Math.min(ends[2 * i], p[axis][k]);
           ends[2 * i + 1] = Math.max(ends[2 * i + 1], p[axis][k]);
@@ -206,9 +168,7 @@ export class Stage {
 
   frame(view = "free") {
     const { low, high, height, middle: center } = this.size();
-    const where = sampleAt(this.data, this.time);
-    const mass = toView(...this.data.center_of_mass.map((x) => valueAt(x, where)))
-      .add(this.figures.position).applyAxisAngle(new Vector3(0, 0, 1), this.data.ground.slope);
+    const mass = this.actor.centerAt(this.time, this.period);
     const rises = Math.abs(this.data.rise ?? 0) > 0 || this.data.ground.slope !== 0;
     const hangs = center !== undefined;
     const middle = rises ? mass.y - 0.08 : (hangs ? low + high : Math.max(low, -0.2) + high) / 2;
@@ -218,7 +178,7 @@ export class Stage {
     // the buttons lie over the upper edge: the body stands below them
     const above = view === "top" ? 0 : Math.min(46 / (this.renderer.domElement.clientHeight || 600), 0.2);
     const slope = Math.tan((this.camera.fov * Math.PI) / 360);
-    const far = (0.58 * tall + 0.12) / (slope * (1 - above)) * Math.max(1, 0.95 / aspect);
+    const far = (0.58 * tall + 0.12) / (slope * (1 - above)) * Math.max(1, (this.second ? 0.7 : 0.95) / aspect);
     target.y += above * slope * far;
     const ways = { free: [0.52, 0.2, 1], side: [0, 0.04, 1], front: [1, 0.06, 0.0001],
       top: [0.0001, 1, 0.0002], back: [-1, 0.1, 0.12] };
@@ -250,28 +210,40 @@ export class Stage {
     this.draw();
   }
 
+  // so many pixels for a film, whatever the window; without them as the window has it
+  fix(width, height) {
+    const { renderer } = this;
+    this.fixed = width !== undefined;
+    if (!this.fixed) return this.resize();
+    renderer.setPixelRatio(1);
+    renderer.setSize(width, height, false);
+    this.setAspect();
+    return this.drawNow();
+  }
+
   resize() {
+    if (this.fixed) return;
     const box = this.renderer.domElement.parentElement.getBoundingClientRect();
     if (box.width < 2 || box.height < 2) return;
     const before = this.camera.aspect;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setSize(box.width, box.height, false);
-    this.camera.aspect = box.width / box.height;
-    this.camera.updateProjectionMatrix();
+    this.setAspect();
     if (this.data && Math.abs(before - this.camera.aspect) > 0.2 && !this.turned) this.frame(this.view);
     this.drawNow();
   }
 
+  setAspect() {
+    const { width, height } = this.renderer.getSize(new Vector2());
+    this.camera.aspect = (this.second ? Math.floor(width / 2) : width) / Math.max(height, 1);
+    this.camera.updateProjectionMatrix();
+  }
+
   // a picture of so many pixels, as data of an <img>
   still(width, height) {
-    const { renderer, camera } = this;
-    renderer.setPixelRatio(1);
-    renderer.setSize(width, height, false);
-    camera.aspect = width / height;
-    camera.updateProjectionMatrix();
-    this.drawNow();
-    const picture = renderer.domElement.toDataURL("image/jpeg", 0.92);
-    this.resize();
+    this.fix(width, height);
+    const picture = this.renderer.domElement.toDataURL("image/jpeg", 0.92);
+    this.fix();
     return picture;
   }
 
@@ -283,6 +255,23 @@ export class Stage {
 
   drawNow() {
     this.waiting = false;
-    if (this.data) this.renderer.render(this.scene, this.camera);
+    if (!this.data) return;
+    const { renderer, second } = this, { width, height } = renderer.getSize(new Vector2());
+    const half = Math.floor(width / 2);
+    renderer.setScissorTest(Boolean(second));
+    this.actor.root.visible = true;
+    if (second) {
+      second.root.visible = false;
+      this.drawIn(0, half, height);
+      second.root.visible = true;
+      this.actor.root.visible = false;
+      this.drawIn(width - half, half, height);
+    } else this.drawIn(0, width, height);
+  }
+
+  drawIn(left, width, height) {
+    this.renderer.setViewport(left, 0, width, height);
+    this.renderer.setScissor(left, 0, width, height);
+    this.renderer.render(this.scene, this.camera);
   }
 }

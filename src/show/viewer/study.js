@@ -1,6 +1,7 @@
 // A batch: a table of its cases that sorts and filters, a plot of two columns and a shade, a case to
 // watch. Lines join cases that differ along an axis alone, and the points of a front.
 import { el, short, svg } from "./dom.js";
+import { strongest } from "./effects.js";
 
 const good = new Set(["optimal", "feasible"]);
 export const tone = (state) => good.has(state) ? "good"
@@ -30,10 +31,20 @@ export class Study {
     this.numeric = numeric;
     // columns behind the case and its state
     const { front } = study, terms = front?.order.length ? front.terms.map((c) => c + 2) : [];
-    this.x = terms[0] ?? numeric[0];
-    this.y = terms[1] ?? numeric.find((c) => this.columns[c] === "objective") ?? numeric[1] ?? numeric[0];
-    this.shade = terms[2] ?? -1;
+    const telling = terms.length ? null : this.telling();
+    this.x = terms[0] ?? telling?.x ?? numeric[0];
+    this.y = terms[1] ?? telling?.y ?? numeric.find((c) => this.columns[c] === "objective") ?? numeric[1] ?? numeric[0];
+    this.shade = terms[2] ?? telling?.shade ?? -1;
     this.build(parent);
+  }
+
+  // the axis with most effect, and what it has that on; of axes that advance together the first stands for all.
+  // By cases with a solution, where there are enough
+  telling() {
+    const { axes = 0, zipped = 0, cases } = this.study, solved = cases.filter((row) => good.has(row.state));
+    const together = this.numeric.find((c) => c >= 2 && c < 2 + zipped);
+    const own = this.numeric.filter((c) => c >= 2 && c < 2 + axes && (c >= 2 + zipped || c === together));
+    return strongest(solved.length > 2 ? solved : cases, own, this.numeric.filter((c) => c >= 2 + axes), this.cell);
   }
 
   build(parent) {
