@@ -31,7 +31,8 @@ typedef struct ambulo__export_body {
   int parent; /* body; -1: ground */
   int link;
   int joints;                         /* 0: fixed; at most three sliders and three hinges */
-  int coordinate[AMBULO__JOINT_MOST]; /* of the model */
+  int link_of[AMBULO__JOINT_MOST];    /* whose joint it is */
+  int coordinate[AMBULO__JOINT_MOST]; /* of the model; -1: the joint follows another's */
   double axis[AMBULO__JOINT_MOST][3]; /* unit, joint's frame */
   ambulo__rigid before, after;        /* (E.1) */
   double mass, com[3], inertia[6];    /* in the body's frame; about the centre of mass */
@@ -232,6 +233,24 @@ uint32_t ambulo__crc32(uint32_t crc, const char *bytes, size_t length);
  * URDF. Errors: E_LIMIT, E_MEMORY. */
 ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__source *source,
                                  const ambulo__loads *loads, ambulo__text_buffer *text);
+
+/* --------------------------------------------- joints that follow (coupled_text.c) */
+
+/* 1: joint i of a body follows the coordinate of another body's joint; in OpenSim it then has one
+ * of its own, named after its link. */
+int ambulo__follows_elsewhere(const ambulo__export_body *body, const ambulo_model *model, int i);
+/* The name of what moves joint i in OpenSim. */
+void ambulo__mover_name(const ambulo__export_body *body, const ambulo_model *model, int i,
+                        ambulo__text_buffer *text);
+/* The function by which joint i depends on that. */
+void ambulo__mover_function(const ambulo__export_body *body, const ambulo_model *model, int i,
+                            ambulo__text_buffer *text);
+/* <CoordinateCouplerConstraint> of joints that follow elsewhere. */
+void ambulo__export_couplers(const ambulo__bodies *bodies, ambulo__text_buffer *text);
+/* <mimic> of a URDF. */
+void ambulo__export_mimic(const ambulo_model *model, int link, ambulo__text_buffer *text);
+/* 1: the joint of a link is no straight line of what it follows: a URDF cannot have it. */
+int ambulo__is_curved(const ambulo_link *link);
 
 /* ----------------------------------------------- models as text (model_text.c) */
 

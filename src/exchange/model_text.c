@@ -103,6 +103,17 @@ static void print_coordinate(const ambulo__bodies *bodies, int index, ambulo__te
   ambulo__text_append(text, "\t\t\t\t\t\t\t<clamped>false</clamped>\n\t\t\t\t\t\t</Coordinate>\n");
 }
 
+/* the coordinate of a joint, which may be there for it alone; none where it follows one of its body
+ */
+static void print_mover(const ambulo__bodies *bodies, const ambulo__export_body *body, int i,
+                        ambulo__text_buffer *text) {
+  if (body->coordinate[i] >= 0) print_coordinate(bodies, body->coordinate[i], text);
+  if (!ambulo__follows_elsewhere(body, bodies->model, i)) return;
+  ambulo__text_append(text, "\t\t\t\t\t\t<Coordinate name=\"");
+  ambulo__mover_name(body, bodies->model, i, text);
+  ambulo__text_append(text, "\"/>\n");
+}
+
 static void print_frame(const ambulo__bodies *bodies, int body, const char *name, const char *end,
                         const ambulo__rigid *place, ambulo__text_buffer *text) {
   double angles[3];
@@ -116,19 +127,20 @@ static void print_frame(const ambulo__bodies *bodies, int body, const char *name
   ambulo__text_append(text, "\t\t\t\t\t\t</PhysicalOffsetFrame>\n");
 }
 
-/* one of the six rows of a custom joint; coordinate NULL: a constant 0 */
-static void print_row(const char *row, const char *coordinate, const double axis[3],
-                      ambulo__text_buffer *text) {
+/* one of the six rows of a custom joint, that of the body's joint i; -1: a constant 0 */
+static void print_row(const char *row, const ambulo_model *model, const ambulo__export_body *body,
+                      int i, const double axis[3], ambulo__text_buffer *text) {
   open_named(text, 6, "TransformAxis", row);
-  ambulo__markup_text(text, "\t\t\t\t\t\t\t<coordinates>", coordinate ? coordinate : "",
-                      "</coordinates>\n");
+  ambulo__text_append(text, "\t\t\t\t\t\t\t<coordinates>");
+  if (i >= 0) ambulo__mover_name(body, model, i, text);
+  ambulo__text_append(text, "</coordinates>\n");
   ambulo__markup_element(text, 7, "axis", axis, 3);
-  ambulo__text_append(text, coordinate ? "\t\t\t\t\t\t\t<LinearFunction name=\"function\">\n"
-                                         "\t\t\t\t\t\t\t\t<coefficients>1 0</coefficients>\n"
-                                         "\t\t\t\t\t\t\t</LinearFunction>\n"
-                                       : "\t\t\t\t\t\t\t<Constant name=\"function\">\n"
-                                         "\t\t\t\t\t\t\t\t<value>0</value>\n"
-                                         "\t\t\t\t\t\t\t</Constant>\n");
+  if (i >= 0)
+    ambulo__mover_function(body, model, i, text);
+  else
+    ambulo__text_append(text, "\t\t\t\t\t\t\t<Constant name=\"function\">\n"
+                              "\t\t\t\t\t\t\t\t<value>0</value>\n"
+                              "\t\t\t\t\t\t\t</Constant>\n");
   ambulo__text_append(text, "\t\t\t\t\t\t</TransformAxis>\n");
 }
 
@@ -153,23 +165,26 @@ static void fill_axes(double axis[3][3], int given) {
   }
 }
 
+static int slides_at(const ambulo__bodies *bodies, const ambulo__export_body *body, int i) {
+  return bodies->model->links[body->link_of[i]].type == AMBULO_PRISMATIC;
+}
+
 static void print_transform(const ambulo__bodies *bodies, const ambulo__export_body *body,
                             ambulo__text_buffer *text) {
   static const char *const rows[2][3] = {{"rotation1", "rotation2", "rotation3"},
                                          {"translation1", "translation2", "translation3"}};
   ambulo__text_append(text, "\t\t\t\t\t<SpatialTransform>\n");
   for (int slides = 0; slides < 2; slides++) {
-    const char *name[3] = {NULL, NULL, NULL};
     double axis[3][3];
-    int count = 0;
+    int count = 0, joint[3] = {-1, -1, -1};
     for (int i = 0; i < body->joints; i++) {
-      const ambulo_coordinate *c = &bodies->model->coordinates[body->coordinate[i]];
-      if ((c->type == AMBULO_PRISMATIC) != slides) continue;
+      if (slides_at(bodies, body, i) != slides) continue;
       for (int k = 0; k < 3; k++) axis[count][k] = body->axis[i][k];
-      name[count++] = c->name;
+      joint[count++] = i;
     }
     fill_axes(axis, count);
-    for (int row = 0; row < 3; row++) print_row(rows[slides][row], name[row], axis[row], text);
+    for (int row = 0; row < 3; row++)
+      print_row(rows[slides][row], bodies->model, body, joint[row], axis[row], text);
   }
   ambulo__text_append(text, "\t\t\t\t\t</SpatialTransform>\n");
 }
@@ -187,8 +202,7 @@ static void aim_slider(ambulo__rigid *before, ambulo__rigid *after) {
 static void print_joint(const ambulo__bodies *bodies, const ambulo__export_body *body,
                         ambulo__text_buffer *text) {
   static const char *const kinds[] = {"WeldJoint", "PinJoint", "SliderJoint", "CustomJoint"};
-  int slides =
-      body->joints == 1 && bodies->model->coordinates[body->coordinate[0]].type == AMBULO_PRISMATIC;
+  int slides = body->joints == 1 && slides_at(bodies, body, 0);
   const char *kind = kinds[body->joints > 1 ? 3 : body->joints + slides];
   const char *parent = ambulo__export_name(bodies, body->parent);
   ambulo__rigid before = body->before, after = body->after;
@@ -203,8 +217,7 @@ static void print_joint(const ambulo__bodies *bodies, const ambulo__export_body 
   /* hinges first, as OpenSim numbers those of a custom joint */
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i < body->joints; i++)
-      if ((bodies->model->coordinates[body->coordinate[i]].type == AMBULO_PRISMATIC) == pass)
-        print_coordinate(bodies, body->coordinate[i], text);
+      if (slides_at(bodies, body, i) == pass) print_mover(bodies, body, i, text);
   if (body->joints) ambulo__text_append(text, "\t\t\t\t\t</coordinates>\n");
   ambulo__text_append(text, "\t\t\t\t\t<frames>\n");
   print_frame(bodies, body->parent, parent, "_offset", &before, text);
@@ -275,6 +288,11 @@ void ambulo__export_osim(const ambulo__bodies *bodies, ambulo__text_buffer *text
   for (int i = 0; i < model->coordinate_count; i++)
     if (model->coordinates[i].actuated) print_actuator(&model->coordinates[i], text);
   end_set(text, "ForceSet");
+  if (model->coupled_count > 0) {
+    begin_set(text, "ConstraintSet", "constraintset");
+    ambulo__export_couplers(bodies, text);
+    end_set(text, "ConstraintSet");
+  }
   begin_set(text, "MarkerSet", "markerset");
   for (int i = 0; i < model->point_count; i++) print_marker(bodies, &model->points[i], text);
   end_set(text, "MarkerSet");
@@ -319,11 +337,12 @@ static double largest(const double limits[2]) {
   return isfinite(most) ? most : urdf_unlimited;
 }
 
-static void print_limit(const ambulo_coordinate *c, ambulo__text_buffer *text) {
+static void print_limit(const ambulo_coordinate *c, ambulo_joint_type type,
+                        ambulo__text_buffer *text) {
   double effort = largest(c->torque), velocity = largest(c->speed);
   double low = isfinite(c->range[0]) ? c->range[0] : -urdf_unlimited;
   double high = isfinite(c->range[1]) ? c->range[1] : urdf_unlimited;
-  int ranged = isfinite(c->range[0]) || isfinite(c->range[1]) || c->type == AMBULO_PRISMATIC;
+  int ranged = isfinite(c->range[0]) || isfinite(c->range[1]) || type == AMBULO_PRISMATIC;
   numbers(text, "    <limit effort=\"", &effort, 1, "\"");
   numbers(text, " velocity=\"", &velocity, 1, "\"");
   if (ranged) numbers(text, " lower=\"", &low, 1, "\"");
@@ -331,28 +350,36 @@ static void print_limit(const ambulo_coordinate *c, ambulo__text_buffer *text) {
   ambulo__text_append(text, "/>\n");
 }
 
-static const char *kind_of(const ambulo_coordinate *c) {
-  if (!c) return "fixed";
+static const char *kind_of(const ambulo_link *link, const ambulo_coordinate *c) {
+  if (!link) return "fixed";
+  if (!c) return link->type == AMBULO_PRISMATIC ? "prismatic" : "continuous";
   if (c->type == AMBULO_PRISMATIC) return "prismatic";
   return isfinite(c->range[0]) || isfinite(c->range[1]) ? "revolute" : "continuous";
 }
 
 static void print_urdf_joint(const ambulo__bodies *bodies, const ambulo__export_body *body,
                              ambulo__text_buffer *text) {
+  const ambulo_model *model = bodies->model;
+  const ambulo_link *link = body->joints ? &model->links[body->link_of[0]] : NULL;
   const ambulo_coordinate *c =
-      body->joints ? &bodies->model->coordinates[body->coordinate[0]] : NULL;
+      link && link->coordinate >= 0 ? &model->coordinates[link->coordinate] : NULL;
+  const ambulo_coordinate unlimited_one = ambulo_coordinate_default();
   ambulo__rigid origin = ambulo__rigid_times(&body->before, &body->after);
-  ambulo__markup_text(text, "  <joint name=\"", c ? c->name : body->name, c ? "" : "_fixed");
-  ambulo__text_append_format(text, "\" type=\"%s\">\n", kind_of(c));
+  ambulo__markup_text(text, "  <joint name=\"", c ? c->name : body->name,
+                      c      ? ""
+                      : link ? "_coupled"
+                             : "_fixed");
+  ambulo__text_append_format(text, "\" type=\"%s\">\n", kind_of(link, c));
   ambulo__markup_text(text, "    <parent link=\"", ambulo__export_name(bodies, body->parent),
                       "\"/>\n");
   ambulo__markup_text(text, "    <child link=\"", body->name, "\"/>\n");
   print_origin(&origin, text);
-  if (c) {
+  if (link) {
     double axis[3];
     ambulo__rigid_back(&body->after, body->axis[0], axis);
     numbers(text, "    <axis xyz=\"", axis, 3, "\"/>\n");
-    print_limit(c, text);
+    print_limit(c ? c : &unlimited_one, link->type, text);
+    if (!c) ambulo__export_mimic(model, body->link_of[0], text);
   }
   ambulo__text_append(text, "  </joint>\n");
 }
