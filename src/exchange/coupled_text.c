@@ -39,16 +39,18 @@ void ambulo__mover_name(const ambulo__export_body *body, const ambulo_model *mod
 
 static void line(double slope, double offset, int depth, ambulo__text_buffer *text) {
   const double coefficients[2] = {slope, offset};
-  ambulo__text_append_format(text, "%.*s<LinearFunction name=\"function\">\n", depth,
-                             "\t\t\t\t\t\t\t\t\t");
+  ambulo__markup_tabs(text, depth);
+  ambulo__text_append(text, "<LinearFunction name=\"function\">\n");
   ambulo__markup_element(text, depth + 1, "coefficients", coefficients, 2);
-  ambulo__text_append_format(text, "%.*s</LinearFunction>\n", depth, "\t\t\t\t\t\t\t\t\t");
+  ambulo__markup_tabs(text, depth);
+  ambulo__text_append(text, "</LinearFunction>\n");
 }
 
 /* x or y of the points of a spline */
 static void column(const ambulo_link *link, int which, int depth, ambulo__text_buffer *text) {
   static const char *const tags[] = {"x", "y"};
-  ambulo__text_append_format(text, "%.*s<%s>", depth, "\t\t\t\t\t\t\t\t\t", tags[which]);
+  ambulo__markup_tabs(text, depth);
+  ambulo__text_append_format(text, "<%s>", tags[which]);
   for (int i = 0; i < link->spline_count; i++) {
     if (i) ambulo__text_append_char(text, ' ');
     ambulo__text_append_number(text, link->spline[2 * i + which]);
@@ -57,14 +59,14 @@ static void column(const ambulo_link *link, int which, int depth, ambulo__text_b
 }
 
 static void function_of(const ambulo_link *link, int depth, ambulo__text_buffer *text) {
-  static const char tabs[] = "\t\t\t\t\t\t\t\t\t";
   const double *c = link->polynomial;
   if (!ambulo__is_curved(link)) {
     line(c[1], c[0], depth, text);
     return;
   }
   const char *kind = link->spline_count > 0 ? "SimmSpline" : "PolynomialFunction";
-  ambulo__text_append_format(text, "%.*s<%s name=\"function\">\n", depth, tabs, kind);
+  ambulo__markup_tabs(text, depth);
+  ambulo__text_append_format(text, "<%s name=\"function\">\n", kind);
   if (link->spline_count > 0) {
     column(link, 0, depth + 1, text);
     column(link, 1, depth + 1, text);
@@ -72,7 +74,8 @@ static void function_of(const ambulo_link *link, int depth, ambulo__text_buffer 
     const double falling[AMBULO__COUPLING_TERMS] = {c[4], c[3], c[2], c[1], c[0]};
     ambulo__markup_element(text, depth + 1, "coefficients", falling, AMBULO__COUPLING_TERMS);
   }
-  ambulo__text_append_format(text, "%.*s</%s>\n", depth, tabs, kind);
+  ambulo__markup_tabs(text, depth);
+  ambulo__text_append_format(text, "</%s>\n", kind);
 }
 
 void ambulo__mover_function(const ambulo__export_body *body, const ambulo_model *model, int i,

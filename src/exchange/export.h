@@ -234,6 +234,19 @@ uint32_t ambulo__crc32(uint32_t crc, const char *bytes, size_t length);
 ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__source *source,
                                  const ambulo__loads *loads, ambulo__text_buffer *text);
 
+/* ------------------------------------------------------------ markup (markup.c) */
+
+/* `plain` with entities for & < > ", between two pieces of markup. */
+void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
+                         const char *after);
+/* "<tag>numbers</tag>\n" behind `depth` tabs. */
+void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
+                            const double *values, int count);
+/* The numbers with spaces between them, between two pieces of markup. */
+void ambulo__markup_numbers(ambulo__text_buffer *text, const char *before, const double *values,
+                            int count, const char *after);
+void ambulo__markup_tabs(ambulo__text_buffer *text, int depth);
+
 /* --------------------------------------------- joints that follow (coupled_text.c) */
 
 /* 1: joint i of a body follows the coordinate of another body's joint; in OpenSim it then has one
@@ -263,13 +276,6 @@ void ambulo__export_osim(const ambulo__bodies *bodies, ambulo__text_buffer *text
 void ambulo__export_urdf(const ambulo__bodies *bodies, ambulo__text_buffer *text);
 /* The name of a body in the file: the ground's is the program's own. */
 const char *ambulo__export_name(const ambulo__bodies *bodies, int body);
-
-/* `plain` with entities for & < > ", between two pieces of markup. */
-void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
-                         const char *after);
-/* "<tag>numbers</tag>\n" behind `depth` tabs. */
-void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
-                            const double *values, int count);
 
 /* Angles of R = Rot_x(a) Rot_y(b) Rot_z(c), rad: OpenSim's orientations. */
 void ambulo__xyz_of_rotation(const double rotation[3][3], double angles[3]);

@@ -10,54 +10,6 @@
 
 #include <math.h>
 
-/* ---------------------------------------------------------------------- markup */
-
-void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
-                         const char *after) {
-  ambulo__text_append(text, before);
-  for (const char *c = plain; *c; c++) {
-    switch (*c) {
-    case '&':
-      ambulo__text_append(text, "&amp;");
-      break;
-    case '<':
-      ambulo__text_append(text, "&lt;");
-      break;
-    case '>':
-      ambulo__text_append(text, "&gt;");
-      break;
-    case '"':
-      ambulo__text_append(text, "&quot;");
-      break;
-    default:
-      ambulo__text_append_char(text, *c);
-    }
-  }
-  ambulo__text_append(text, after);
-}
-
-static void numbers(ambulo__text_buffer *text, const char *before, const double *values, int count,
-                    const char *after) {
-  ambulo__text_append(text, before);
-  for (int i = 0; i < count; i++) {
-    if (i) ambulo__text_append_char(text, ' ');
-    ambulo__text_append_number(text, values[i] == 0.0 ? 0.0 : values[i]);
-  }
-  ambulo__text_append(text, after);
-}
-
-static void tabs(ambulo__text_buffer *text, int depth) {
-  while (depth-- > 0) ambulo__text_append_char(text, '\t');
-}
-
-void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
-                            const double *values, int count) {
-  tabs(text, depth);
-  ambulo__text_append_format(text, "<%s>", tag);
-  numbers(text, "", values, count, "");
-  ambulo__text_append_format(text, "</%s>\n", tag);
-}
-
 /* R[0] = (cb cc, -cb sc, sb), (R[1][2], R[2][2]) = cb (-sa, ca). The last angle is that of
  * Rot_y(b)' Rot_x(a)' R, so that where cb vanishes, and a is any, c makes up for it. */
 void ambulo__xyz_of_rotation(const double r[3][3], double angles[3]) {
@@ -81,7 +33,7 @@ const char *ambulo__export_name(const ambulo__bodies *bodies, int body) {
 }
 
 static void open_named(ambulo__text_buffer *text, int depth, const char *tag, const char *name) {
-  tabs(text, depth);
+  ambulo__markup_tabs(text, depth);
   ambulo__text_append_format(text, "<%s name=\"", tag);
   ambulo__markup_text(text, "", name, "\">\n");
 }
@@ -312,8 +264,8 @@ static const double urdf_unlimited = 1e9;
 static void print_origin(const ambulo__rigid *place, ambulo__text_buffer *text) {
   double rpy[3];
   ambulo__rpy_of_rotation(place->r, rpy);
-  numbers(text, "    <origin xyz=\"", place->p, 3, "\"");
-  numbers(text, " rpy=\"", rpy, 3, "\"/>\n");
+  ambulo__markup_numbers(text, "    <origin xyz=\"", place->p, 3, "\"");
+  ambulo__markup_numbers(text, " rpy=\"", rpy, 3, "\"/>\n");
 }
 
 static void print_link(const ambulo__export_body *body, ambulo__text_buffer *text) {
@@ -323,11 +275,11 @@ static void print_link(const ambulo__export_body *body, ambulo__text_buffer *tex
     return;
   }
   ambulo__markup_text(text, "  <link name=\"", body->name, "\">\n    <inertial>\n");
-  numbers(text, "      <origin xyz=\"", body->com, 3, "\" rpy=\"0 0 0\"/>\n");
-  numbers(text, "      <mass value=\"", &body->mass, 1, "\"/>\n      <inertia");
+  ambulo__markup_numbers(text, "      <origin xyz=\"", body->com, 3, "\" rpy=\"0 0 0\"/>\n");
+  ambulo__markup_numbers(text, "      <mass value=\"", &body->mass, 1, "\"/>\n      <inertia");
   for (int i = 0; i < 6; i++) {
     ambulo__text_append_format(text, " %s", entries[i]);
-    numbers(text, "=\"", &body->inertia[i], 1, "\"");
+    ambulo__markup_numbers(text, "=\"", &body->inertia[i], 1, "\"");
   }
   ambulo__text_append(text, "/>\n    </inertial>\n  </link>\n");
 }
@@ -343,10 +295,10 @@ static void print_limit(const ambulo_coordinate *c, ambulo_joint_type type,
   double low = isfinite(c->range[0]) ? c->range[0] : -urdf_unlimited;
   double high = isfinite(c->range[1]) ? c->range[1] : urdf_unlimited;
   int ranged = isfinite(c->range[0]) || isfinite(c->range[1]) || type == AMBULO_PRISMATIC;
-  numbers(text, "    <limit effort=\"", &effort, 1, "\"");
-  numbers(text, " velocity=\"", &velocity, 1, "\"");
-  if (ranged) numbers(text, " lower=\"", &low, 1, "\"");
-  if (ranged) numbers(text, " upper=\"", &high, 1, "\"");
+  ambulo__markup_numbers(text, "    <limit effort=\"", &effort, 1, "\"");
+  ambulo__markup_numbers(text, " velocity=\"", &velocity, 1, "\"");
+  if (ranged) ambulo__markup_numbers(text, " lower=\"", &low, 1, "\"");
+  if (ranged) ambulo__markup_numbers(text, " upper=\"", &high, 1, "\"");
   ambulo__text_append(text, "/>\n");
 }
 
@@ -377,7 +329,7 @@ static void print_urdf_joint(const ambulo__bodies *bodies, const ambulo__export_
   if (link) {
     double axis[3];
     ambulo__rigid_back(&body->after, body->axis[0], axis);
-    numbers(text, "    <axis xyz=\"", axis, 3, "\"/>\n");
+    ambulo__markup_numbers(text, "    <axis xyz=\"", axis, 3, "\"/>\n");
     print_limit(c ? c : &unlimited_one, link->type, text);
     if (!c) ambulo__export_mimic(model, body->link_of[0], text);
   }

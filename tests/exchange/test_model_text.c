@@ -1,4 +1,4 @@
-/* Text for XML, and OpenSim's angles back to the rotation they are of. */
+/* OpenSim's angles back to the rotation they are of. */
 #include "exchange/export.h"
 
 #include "exchange/rigid.h"
@@ -6,18 +6,6 @@
 #include "support/random_model.h"
 #include "support/scratch.h"
 #include "support/test.h"
-
-static void entities(void **state) {
-  (void)state;
-  ambulo__text_buffer text;
-  ambulo__text_init(&text, NULL);
-  ambulo__markup_text(&text, "<x>", "a<b & \"c\">", "</x>");
-  assert_string_equal(ambulo__text_data(&text), "<x>a&lt;b &amp; &quot;c&quot;&gt;</x>");
-  ambulo__text_clear(&text);
-  ambulo__markup_element(&text, 2, "axis", (double[]){-0.0, 0.1, 1e-300}, 3);
-  assert_string_equal(ambulo__text_data(&text), "\t\t<axis>0 0.1 1e-300</axis>\n");
-  ambulo__text_free(&text);
-}
 
 /* also where the middle angle is a right one, or nearly */
 static void angles(void **state) {
@@ -89,7 +77,7 @@ static void axes_that_are_made_up(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(entities), cmocka_unit_test(angles),
+      cmocka_unit_test(angles),
       cmocka_unit_test_setup_teardown(axes_that_are_made_up, scratch_open, scratch_close)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
