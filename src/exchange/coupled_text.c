@@ -14,7 +14,7 @@
 int ambulo__is_curved(const ambulo_link *link) {
   const double *c = link->polynomial;
   return link->coupled_to >= 0 &&
-         (link->spline_count > 0 || c[2] != 0.0 || c[3] != 0.0 || c[4] != 0.0);
+         (link->knot_count > 0 || c[2] != 0.0 || c[3] != 0.0 || c[4] != 0.0);
 }
 
 static int has(const ambulo__export_body *body, int coordinate) {
@@ -51,9 +51,9 @@ static void column(const ambulo_link *link, int which, int depth, ambulo__text_b
   static const char *const tags[] = {"x", "y"};
   ambulo__markup_tabs(text, depth);
   ambulo__text_append_format(text, "<%s>", tags[which]);
-  for (int i = 0; i < link->spline_count; i++) {
+  for (int i = 0; i < link->knot_count; i++) {
     if (i) ambulo__text_append_char(text, ' ');
-    ambulo__text_append_number(text, link->spline[2 * i + which]);
+    ambulo__text_append_number(text, link->knots[i][which]);
   }
   ambulo__text_append_format(text, "</%s>\n", tags[which]);
 }
@@ -64,10 +64,10 @@ static void function_of(const ambulo_link *link, int depth, ambulo__text_buffer 
     line(c[1], c[0], depth, text);
     return;
   }
-  const char *kind = link->spline_count > 0 ? "SimmSpline" : "PolynomialFunction";
+  const char *kind = link->knot_count > 0 ? "SimmSpline" : "PolynomialFunction";
   ambulo__markup_tabs(text, depth);
   ambulo__text_append_format(text, "<%s name=\"function\">\n", kind);
-  if (link->spline_count > 0) {
+  if (link->knot_count > 0) {
     column(link, 0, depth + 1, text);
     column(link, 1, depth + 1, text);
   } else {
