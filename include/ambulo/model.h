@@ -81,8 +81,7 @@ typedef struct ambulo_link {
   const double (*knots)[2]; /* [knot_count]: coordinate, ascending, and value of the joint. The
                            cubic spline through them, straight beyond both ends; its second
                            derivative is continuous between the ends */
-  double
-      polynomial[5]; /* the joint's value is the sum of polynomial[i] times q to the power of i */
+  double polynomial[5];     /* the sum of polynomial[i] times q to the power of i */
 } ambulo_link;
 
 /* A named point fixed on a link. */
