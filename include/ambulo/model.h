@@ -87,13 +87,12 @@ typedef struct ambulo_link {
   /* A coupled joint, revolute or prismatic, has no coordinate and no limits of its own: its value,
    * rad or m, is a function of a coordinate, as the parts of a knee that slide as it bends. A joint
    * that is not coupled has coupled_to = -1. */
-  int coupled_to;       /* that coordinate; its own joint is not coupled */
-  int spline_count;     /* points of the function, 2 to 1024; 0: it is the polynomial */
-  const double *spline; /* [spline_count][2]: coordinate, ascending, and value of the joint. The
+  int coupled_to;           /* that coordinate; its own joint is not coupled */
+  int knot_count;           /* points of the function, 2 to 1024; 0: it is the polynomial */
+  const double (*knots)[2]; /* [knot_count]: coordinate, ascending, and value of the joint. The
                            cubic spline through them, straight beyond both ends; its second
                            derivative is continuous between the ends */
-  double
-      polynomial[5]; /* the joint's value is the sum of polynomial[i] times q to the power of i */
+  double polynomial[5];     /* the sum of polynomial[i] times q to the power of i */
 } ambulo_link;
 
 /* A named point fixed on a link. */

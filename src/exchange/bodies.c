@@ -16,7 +16,7 @@
 
 typedef struct chain {
   int parent, joints;
-  int coordinate[AMBULO__JOINT_MOST];
+  int link_of[AMBULO__JOINT_MOST], coordinate[AMBULO__JOINT_MOST];
   double axis[AMBULO__JOINT_MOST][3];
   ambulo__rigid before, after;
 } chain;
@@ -71,7 +71,7 @@ static void copy_mass(const ambulo_link *link, const ambulo__rigid *place,
 /* the origin of a hinge's body onto its axis; returns where the link's own frame is then */
 static ambulo__rigid onto_axis(const ambulo_model *model, chain *c) {
   double along, off[3], local[3];
-  if (c->joints != 1 || model->coordinates[c->coordinate[0]].type != AMBULO_REVOLUTE)
+  if (c->joints != 1 || model->links[c->link_of[0]].type != AMBULO_REVOLUTE)
     return ambulo__rigid_identity();
   along = ambulo__dot(c->axis[0], c->after.p);
   for (int i = 0; i < 3; i++) {
@@ -91,7 +91,7 @@ static void move_before(chain *c) {
 
 static int all_slide(const ambulo_model *model, const chain *c) {
   for (int i = 0; i < c->joints; i++)
-    if (model->coordinates[c->coordinate[i]].type != AMBULO_PRISMATIC) return 0;
+    if (model->links[c->link_of[i]].type != AMBULO_PRISMATIC) return 0;
   return 1;
 }
 
@@ -99,8 +99,7 @@ static int all_slide(const ambulo_model *model, const chain *c) {
 static int commutes(const ambulo_model *model, const chain *c) {
   double off[3];
   int hinges = 0;
-  for (int i = 0; i < c->joints; i++)
-    hinges += model->coordinates[c->coordinate[i]].type == AMBULO_REVOLUTE;
+  for (int i = 0; i < c->joints; i++) hinges += model->links[c->link_of[i]].type == AMBULO_REVOLUTE;
   if (hinges > 1) return 0;
   if (hinges == 0) return 1;
   ambulo__cross(c->axis[c->joints - 1], c->after.p, off);
@@ -122,6 +121,7 @@ static void close_link(builder *b, int link) {
                                 .joints = c.joints,
                                 .before = c.before,
                                 .after = c.after};
+  memcpy(body->link_of, c.link_of, sizeof body->link_of);
   memcpy(body->coordinate, c.coordinate, sizeof body->coordinate);
   memcpy(body->axis, c.axis, sizeof body->axis);
   copy_mass(&model->links[link], &bodies->place[link], body);
@@ -136,7 +136,7 @@ static int is_independent(const ambulo_model *model, const chain *c, ambulo_join
   int count = 0;
   double normal[3];
   for (int i = 0; i < c->joints; i++)
-    if (model->coordinates[c->coordinate[i]].type == type) same[count++] = c->axis[i];
+    if (model->links[c->link_of[i]].type == type) same[count++] = c->axis[i];
   if (count > 2) return 0;
   for (int i = 0; i < count; i++) {
     ambulo__cross(same[i], axis, normal);
@@ -182,6 +182,7 @@ static void append_link(builder *b, int index) {
     }
     if (c.joints && commutes(model, &c)) move_before(&c);
     memcpy(c.axis[c.joints], axis, sizeof axis);
+    c.link_of[c.joints] = index;
     c.coordinate[c.joints++] = link->coordinate;
   }
   ambulo__rigid *last = c.joints ? &c.after : &c.before;
@@ -247,10 +248,11 @@ static void count_from_ground(ambulo__bodies *bodies, ambulo__export_body *body)
   const ambulo_coordinate *coordinates = bodies->model->coordinates;
   double rest[3];
   int sliders = 0;
-  while (sliders < body->joints && coordinates[body->coordinate[sliders]].type == AMBULO_PRISMATIC)
+  while (sliders < body->joints &&
+         bodies->model->links[body->link_of[sliders]].type == AMBULO_PRISMATIC)
     sliders++;
   for (int i = 0; i < sliders; i++) {
-    if (coordinates[body->coordinate[i]].actuated) return;
+    if (body->coordinate[i] < 0 || coordinates[body->coordinate[i]].actuated) return;
     for (int k = 0; k < i; k++)
       if (fabs(ambulo__dot(body->axis[i], body->axis[k])) > 1e-12) return;
   }

@@ -36,21 +36,44 @@ static void cell(ambulo__text_buffer *text, double value) {
   ambulo__text_append_number(text, value == 0.0 ? 0.0 : value);
 }
 
+/* For each joint that follows elsewhere: its name (q NULL), or where it stands. Returns how many.
+ */
+static int print_followers(const ambulo__bodies *bodies, const double *q,
+                           ambulo__text_buffer *text) {
+  const ambulo_model *model = bodies->model;
+  int count = 0;
+  for (int b = 0; b < bodies->count; b++) {
+    const ambulo__export_body *body = &bodies->list[b];
+    for (int i = 0; i < body->joints; i++) {
+      if (!ambulo__follows_elsewhere(body, model, i)) continue;
+      count++;
+      if (!text) continue;
+      double unit = model->links[body->link_of[i]].type == AMBULO_REVOLUTE ? degree : 1.0;
+      if (q) cell(text, unit * ambulo__joint_value(model, body->link_of[i], q, NULL));
+      if (!q) ambulo__text_append_char(text, '\t');
+      if (!q) ambulo__mover_name(body, model, i, text);
+    }
+  }
+  return count;
+}
+
 static void print_motion(const ambulo__bodies *bodies, const ambulo__source *source,
                          ambulo__text_buffer *text) {
   const ambulo_coordinate *coordinates = bodies->model->coordinates;
   int d = source->coordinates;
-  header(text, source->name, source->rows, d + 1, 1);
+  header(text, source->name, source->rows, d + 1 + print_followers(bodies, NULL, NULL), 1);
   for (int i = 0; i < d; i++) {
     ambulo__text_append_char(text, '\t');
     ambulo__text_append(text, coordinates[i].name);
   }
+  (void)print_followers(bodies, NULL, text);
   ambulo__text_append_char(text, '\n');
   for (int k = 0; k < source->rows; k++) {
     const double *q = source->q + (size_t)k * (size_t)d;
     ambulo__text_append_number(text, source->time[k]);
     for (int i = 0; i < d; i++)
       cell(text, coordinates[i].type == AMBULO_REVOLUTE ? q[i] * degree : q[i] + bodies->offset[i]);
+    (void)print_followers(bodies, q, text);
     ambulo__text_append_char(text, '\n');
   }
 }
@@ -173,6 +196,37 @@ static int same_body(const ambulo_model *a, const ambulo_model *b) {
   return a->foot_count == b->foot_count && a->patch_count == b->patch_count;
 }
 
+static int is_driven(const ambulo_problem *problem, int coordinate) {
+  for (int i = 0; problem && i < problem->definition.device_count; i++)
+    if (problem->definition.devices[i].coordinate == coordinate) return 1;
+  return 0;
+}
+
+/* Where joints follow, an array of a robot's coordinates, a curve in a URDF, and a device at what
+ * is followed have no counterpart. */
+static ambulo_status check_coupled(const job *j) {
+  const ambulo_model *model = j->model;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    if (link->coupled_to < 0) continue;
+    const char *leader = model->coordinates[link->coupled_to].name;
+    if (j->options->format == AMBULO_EXPORT_NPZ)
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "'%s' follows '%s': an .npz has no coupled joints; expected --format "
+                           "opensim",
+                           link->name, leader);
+    if (j->options->format == AMBULO_EXPORT_URDF && ambulo__is_curved(link))
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "'%s' follows '%s' by a curve; a URDF has straight lines alone",
+                           link->name, leader);
+    if (is_driven(j->options->problem, link->coupled_to))
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "'%s' follows '%s', where a device acts: that cannot be exported",
+                           link->name, leader);
+  }
+  return AMBULO_OK;
+}
+
 static ambulo_status check_asked(const job *j) {
   ambulo_export_format format = j->options->format;
   if (format == AMBULO_EXPORT_NPZ && !j->motion)
@@ -182,12 +236,8 @@ static ambulo_status check_asked(const job *j) {
   if (format == AMBULO_EXPORT_URDF && j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
                          "--format npz writes the motion", "a URDF cannot hold a motion");
-  for (int i = 0; i < j->model->link_count; i++)
-    if (j->model->links[i].coupled_to >= 0)
-      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
-                           "'%s' follows '%s': coupled joints cannot be exported",
-                           j->model->links[i].name,
-                           j->model->coordinates[j->model->links[i].coupled_to].name);
+  ambulo_status coupled = check_coupled(j);
+  if (coupled) return coupled;
   if (j->options->problem && !same_body(j->model, j->options->problem->model))
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "the problem belongs to another body, '%s'; expected the model's",

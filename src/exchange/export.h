@@ -31,7 +31,8 @@ typedef struct ambulo__export_body {
   int parent; /* body; -1: ground */
   int link;
   int joints;                         /* 0: fixed; at most three sliders and three hinges */
-  int coordinate[AMBULO__JOINT_MOST]; /* of the model */
+  int link_of[AMBULO__JOINT_MOST];    /* whose joint it is */
+  int coordinate[AMBULO__JOINT_MOST]; /* of the model; -1: the joint follows another's */
   double axis[AMBULO__JOINT_MOST][3]; /* unit, joint's frame */
   ambulo__rigid before, after;        /* (E.1) */
   double mass, com[3], inertia[6];    /* in the body's frame; about the centre of mass */
@@ -233,6 +234,37 @@ uint32_t ambulo__crc32(uint32_t crc, const char *bytes, size_t length);
 ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__source *source,
                                  const ambulo__loads *loads, ambulo__text_buffer *text);
 
+/* ------------------------------------------------------------ markup (markup.c) */
+
+/* `plain` with entities for & < > ", between two pieces of markup. */
+void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
+                         const char *after);
+/* "<tag>numbers</tag>\n" behind `depth` tabs. */
+void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
+                            const double *values, int count);
+/* The numbers with spaces between them, between two pieces of markup. */
+void ambulo__markup_numbers(ambulo__text_buffer *text, const char *before, const double *values,
+                            int count, const char *after);
+void ambulo__markup_tabs(ambulo__text_buffer *text, int depth);
+
+/* --------------------------------------------- joints that follow (coupled_text.c) */
+
+/* 1: joint i of a body follows the coordinate of another body's joint; in OpenSim it then has one
+ * of its own, named after its link. */
+int ambulo__follows_elsewhere(const ambulo__export_body *body, const ambulo_model *model, int i);
+/* The name of what moves joint i in OpenSim. */
+void ambulo__mover_name(const ambulo__export_body *body, const ambulo_model *model, int i,
+                        ambulo__text_buffer *text);
+/* The function by which joint i depends on that. */
+void ambulo__mover_function(const ambulo__export_body *body, const ambulo_model *model, int i,
+                            ambulo__text_buffer *text);
+/* <CoordinateCouplerConstraint> of joints that follow elsewhere. */
+void ambulo__export_couplers(const ambulo__bodies *bodies, ambulo__text_buffer *text);
+/* <mimic> of a URDF. */
+void ambulo__export_mimic(const ambulo_model *model, int link, ambulo__text_buffer *text);
+/* 1: the joint of a link is no straight line of what it follows: a URDF cannot have it. */
+int ambulo__is_curved(const ambulo_link *link);
+
 /* ----------------------------------------------- models as text (model_text.c) */
 
 /* First characters of an OpenSim model and of a URDF that ambulo wrote, behind the declaration. */
@@ -244,13 +276,6 @@ void ambulo__export_osim(const ambulo__bodies *bodies, ambulo__text_buffer *text
 void ambulo__export_urdf(const ambulo__bodies *bodies, ambulo__text_buffer *text);
 /* The name of a body in the file: the ground's is the program's own. */
 const char *ambulo__export_name(const ambulo__bodies *bodies, int body);
-
-/* `plain` with entities for & < > ", between two pieces of markup. */
-void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
-                         const char *after);
-/* "<tag>numbers</tag>\n" behind `depth` tabs. */
-void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
-                            const double *values, int count);
 
 /* Angles of R = Rot_x(a) Rot_y(b) Rot_z(c), rad: OpenSim's orientations. */
 void ambulo__xyz_of_rotation(const double rotation[3][3], double angles[3]);

@@ -339,7 +339,8 @@ static void dual_axis(const ambulo__bodies *bodies, const ambulo__export_body *b
   axis_of(model, frames, coordinate, axis);
   for (int i = 0; i < body->joints; i++) {
     int c = body->coordinate[i];
-    if (c != coordinate && model->coordinates[c].type == model->coordinates[coordinate].type)
+    if (c >= 0 && c != coordinate &&
+        model->coordinates[c].type == model->coordinates[coordinate].type)
       axis_of(model, frames, c, other[others++]);
   }
   memcpy(out, axis, sizeof axis);

@@ -10,54 +10,6 @@
 
 #include <math.h>
 
-/* ---------------------------------------------------------------------- markup */
-
-void ambulo__markup_text(ambulo__text_buffer *text, const char *before, const char *plain,
-                         const char *after) {
-  ambulo__text_append(text, before);
-  for (const char *c = plain; *c; c++) {
-    switch (*c) {
-    case '&':
-      ambulo__text_append(text, "&amp;");
-      break;
-    case '<':
-      ambulo__text_append(text, "&lt;");
-      break;
-    case '>':
-      ambulo__text_append(text, "&gt;");
-      break;
-    case '"':
-      ambulo__text_append(text, "&quot;");
-      break;
-    default:
-      ambulo__text_append_char(text, *c);
-    }
-  }
-  ambulo__text_append(text, after);
-}
-
-static void numbers(ambulo__text_buffer *text, const char *before, const double *values, int count,
-                    const char *after) {
-  ambulo__text_append(text, before);
-  for (int i = 0; i < count; i++) {
-    if (i) ambulo__text_append_char(text, ' ');
-    ambulo__text_append_number(text, values[i] == 0.0 ? 0.0 : values[i]);
-  }
-  ambulo__text_append(text, after);
-}
-
-static void tabs(ambulo__text_buffer *text, int depth) {
-  while (depth-- > 0) ambulo__text_append_char(text, '\t');
-}
-
-void ambulo__markup_element(ambulo__text_buffer *text, int depth, const char *tag,
-                            const double *values, int count) {
-  tabs(text, depth);
-  ambulo__text_append_format(text, "<%s>", tag);
-  numbers(text, "", values, count, "");
-  ambulo__text_append_format(text, "</%s>\n", tag);
-}
-
 /* R[0] = (cb cc, -cb sc, sb), (R[1][2], R[2][2]) = cb (-sa, ca). The last angle is that of
  * Rot_y(b)' Rot_x(a)' R, so that where cb vanishes, and a is any, c makes up for it. */
 void ambulo__xyz_of_rotation(const double r[3][3], double angles[3]) {
@@ -81,7 +33,7 @@ const char *ambulo__export_name(const ambulo__bodies *bodies, int body) {
 }
 
 static void open_named(ambulo__text_buffer *text, int depth, const char *tag, const char *name) {
-  tabs(text, depth);
+  ambulo__markup_tabs(text, depth);
   ambulo__text_append_format(text, "<%s name=\"", tag);
   ambulo__markup_text(text, "", name, "\">\n");
 }
@@ -103,6 +55,17 @@ static void print_coordinate(const ambulo__bodies *bodies, int index, ambulo__te
   ambulo__text_append(text, "\t\t\t\t\t\t\t<clamped>false</clamped>\n\t\t\t\t\t\t</Coordinate>\n");
 }
 
+/* the coordinate of a joint, which may be there for it alone; none where it follows one of its body
+ */
+static void print_mover(const ambulo__bodies *bodies, const ambulo__export_body *body, int i,
+                        ambulo__text_buffer *text) {
+  if (body->coordinate[i] >= 0) print_coordinate(bodies, body->coordinate[i], text);
+  if (!ambulo__follows_elsewhere(body, bodies->model, i)) return;
+  ambulo__text_append(text, "\t\t\t\t\t\t<Coordinate name=\"");
+  ambulo__mover_name(body, bodies->model, i, text);
+  ambulo__text_append(text, "\"/>\n");
+}
+
 static void print_frame(const ambulo__bodies *bodies, int body, const char *name, const char *end,
                         const ambulo__rigid *place, ambulo__text_buffer *text) {
   double angles[3];
@@ -116,19 +79,20 @@ static void print_frame(const ambulo__bodies *bodies, int body, const char *name
   ambulo__text_append(text, "\t\t\t\t\t\t</PhysicalOffsetFrame>\n");
 }
 
-/* one of the six rows of a custom joint; coordinate NULL: a constant 0 */
-static void print_row(const char *row, const char *coordinate, const double axis[3],
-                      ambulo__text_buffer *text) {
+/* one of the six rows of a custom joint, that of the body's joint i; -1: a constant 0 */
+static void print_row(const char *row, const ambulo_model *model, const ambulo__export_body *body,
+                      int i, const double axis[3], ambulo__text_buffer *text) {
   open_named(text, 6, "TransformAxis", row);
-  ambulo__markup_text(text, "\t\t\t\t\t\t\t<coordinates>", coordinate ? coordinate : "",
-                      "</coordinates>\n");
+  ambulo__text_append(text, "\t\t\t\t\t\t\t<coordinates>");
+  if (i >= 0) ambulo__mover_name(body, model, i, text);
+  ambulo__text_append(text, "</coordinates>\n");
   ambulo__markup_element(text, 7, "axis", axis, 3);
-  ambulo__text_append(text, coordinate ? "\t\t\t\t\t\t\t<LinearFunction name=\"function\">\n"
-                                         "\t\t\t\t\t\t\t\t<coefficients>1 0</coefficients>\n"
-                                         "\t\t\t\t\t\t\t</LinearFunction>\n"
-                                       : "\t\t\t\t\t\t\t<Constant name=\"function\">\n"
-                                         "\t\t\t\t\t\t\t\t<value>0</value>\n"
-                                         "\t\t\t\t\t\t\t</Constant>\n");
+  if (i >= 0)
+    ambulo__mover_function(body, model, i, text);
+  else
+    ambulo__text_append(text, "\t\t\t\t\t\t\t<Constant name=\"function\">\n"
+                              "\t\t\t\t\t\t\t\t<value>0</value>\n"
+                              "\t\t\t\t\t\t\t</Constant>\n");
   ambulo__text_append(text, "\t\t\t\t\t\t</TransformAxis>\n");
 }
 
@@ -153,23 +117,26 @@ static void fill_axes(double axis[3][3], int given) {
   }
 }
 
+static int slides_at(const ambulo__bodies *bodies, const ambulo__export_body *body, int i) {
+  return bodies->model->links[body->link_of[i]].type == AMBULO_PRISMATIC;
+}
+
 static void print_transform(const ambulo__bodies *bodies, const ambulo__export_body *body,
                             ambulo__text_buffer *text) {
   static const char *const rows[2][3] = {{"rotation1", "rotation2", "rotation3"},
                                          {"translation1", "translation2", "translation3"}};
   ambulo__text_append(text, "\t\t\t\t\t<SpatialTransform>\n");
   for (int slides = 0; slides < 2; slides++) {
-    const char *name[3] = {NULL, NULL, NULL};
     double axis[3][3];
-    int count = 0;
+    int count = 0, joint[3] = {-1, -1, -1};
     for (int i = 0; i < body->joints; i++) {
-      const ambulo_coordinate *c = &bodies->model->coordinates[body->coordinate[i]];
-      if ((c->type == AMBULO_PRISMATIC) != slides) continue;
+      if (slides_at(bodies, body, i) != slides) continue;
       for (int k = 0; k < 3; k++) axis[count][k] = body->axis[i][k];
-      name[count++] = c->name;
+      joint[count++] = i;
     }
     fill_axes(axis, count);
-    for (int row = 0; row < 3; row++) print_row(rows[slides][row], name[row], axis[row], text);
+    for (int row = 0; row < 3; row++)
+      print_row(rows[slides][row], bodies->model, body, joint[row], axis[row], text);
   }
   ambulo__text_append(text, "\t\t\t\t\t</SpatialTransform>\n");
 }
@@ -187,8 +154,7 @@ static void aim_slider(ambulo__rigid *before, ambulo__rigid *after) {
 static void print_joint(const ambulo__bodies *bodies, const ambulo__export_body *body,
                         ambulo__text_buffer *text) {
   static const char *const kinds[] = {"WeldJoint", "PinJoint", "SliderJoint", "CustomJoint"};
-  int slides =
-      body->joints == 1 && bodies->model->coordinates[body->coordinate[0]].type == AMBULO_PRISMATIC;
+  int slides = body->joints == 1 && slides_at(bodies, body, 0);
   const char *kind = kinds[body->joints > 1 ? 3 : body->joints + slides];
   const char *parent = ambulo__export_name(bodies, body->parent);
   ambulo__rigid before = body->before, after = body->after;
@@ -203,8 +169,7 @@ static void print_joint(const ambulo__bodies *bodies, const ambulo__export_body 
   /* hinges first, as OpenSim numbers those of a custom joint */
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i < body->joints; i++)
-      if ((bodies->model->coordinates[body->coordinate[i]].type == AMBULO_PRISMATIC) == pass)
-        print_coordinate(bodies, body->coordinate[i], text);
+      if (slides_at(bodies, body, i) == pass) print_mover(bodies, body, i, text);
   if (body->joints) ambulo__text_append(text, "\t\t\t\t\t</coordinates>\n");
   ambulo__text_append(text, "\t\t\t\t\t<frames>\n");
   print_frame(bodies, body->parent, parent, "_offset", &before, text);
@@ -275,6 +240,11 @@ void ambulo__export_osim(const ambulo__bodies *bodies, ambulo__text_buffer *text
   for (int i = 0; i < model->coordinate_count; i++)
     if (model->coordinates[i].actuated) print_actuator(&model->coordinates[i], text);
   end_set(text, "ForceSet");
+  if (model->coupled_count > 0) {
+    begin_set(text, "ConstraintSet", "constraintset");
+    ambulo__export_couplers(bodies, text);
+    end_set(text, "ConstraintSet");
+  }
   begin_set(text, "MarkerSet", "markerset");
   for (int i = 0; i < model->point_count; i++) print_marker(bodies, &model->points[i], text);
   end_set(text, "MarkerSet");
@@ -294,8 +264,8 @@ static const double urdf_unlimited = 1e9;
 static void print_origin(const ambulo__rigid *place, ambulo__text_buffer *text) {
   double rpy[3];
   ambulo__rpy_of_rotation(place->r, rpy);
-  numbers(text, "    <origin xyz=\"", place->p, 3, "\"");
-  numbers(text, " rpy=\"", rpy, 3, "\"/>\n");
+  ambulo__markup_numbers(text, "    <origin xyz=\"", place->p, 3, "\"");
+  ambulo__markup_numbers(text, " rpy=\"", rpy, 3, "\"/>\n");
 }
 
 static void print_link(const ambulo__export_body *body, ambulo__text_buffer *text) {
@@ -305,11 +275,11 @@ static void print_link(const ambulo__export_body *body, ambulo__text_buffer *tex
     return;
   }
   ambulo__markup_text(text, "  <link name=\"", body->name, "\">\n    <inertial>\n");
-  numbers(text, "      <origin xyz=\"", body->com, 3, "\" rpy=\"0 0 0\"/>\n");
-  numbers(text, "      <mass value=\"", &body->mass, 1, "\"/>\n      <inertia");
+  ambulo__markup_numbers(text, "      <origin xyz=\"", body->com, 3, "\" rpy=\"0 0 0\"/>\n");
+  ambulo__markup_numbers(text, "      <mass value=\"", &body->mass, 1, "\"/>\n      <inertia");
   for (int i = 0; i < 6; i++) {
     ambulo__text_append_format(text, " %s", entries[i]);
-    numbers(text, "=\"", &body->inertia[i], 1, "\"");
+    ambulo__markup_numbers(text, "=\"", &body->inertia[i], 1, "\"");
   }
   ambulo__text_append(text, "/>\n    </inertial>\n  </link>\n");
 }
@@ -319,43 +289,52 @@ static double largest(const double limits[2]) {
   return isfinite(most) ? most : urdf_unlimited;
 }
 
-static void print_limit(const ambulo_coordinate *c, ambulo__text_buffer *text) {
+static void print_limit(const ambulo_coordinate *c, ambulo_joint_type type,
+                        ambulo__text_buffer *text) {
   double effort = largest(c->torque), velocity = largest(c->speed);
   double low = isfinite(c->range[0]) ? c->range[0] : -urdf_unlimited;
   double high = isfinite(c->range[1]) ? c->range[1] : urdf_unlimited;
-  int ranged = isfinite(c->range[0]) || isfinite(c->range[1]) || c->type == AMBULO_PRISMATIC;
-  numbers(text, "    <limit effort=\"", &effort, 1, "\"");
-  numbers(text, " velocity=\"", &velocity, 1, "\"");
-  if (ranged) numbers(text, " lower=\"", &low, 1, "\"");
-  if (ranged) numbers(text, " upper=\"", &high, 1, "\"");
+  int ranged = isfinite(c->range[0]) || isfinite(c->range[1]) || type == AMBULO_PRISMATIC;
+  ambulo__markup_numbers(text, "    <limit effort=\"", &effort, 1, "\"");
+  ambulo__markup_numbers(text, " velocity=\"", &velocity, 1, "\"");
+  if (ranged) ambulo__markup_numbers(text, " lower=\"", &low, 1, "\"");
+  if (ranged) ambulo__markup_numbers(text, " upper=\"", &high, 1, "\"");
   ambulo__text_append(text, "/>\n");
   if (c->damping == 0.0 && c->friction == 0.0) return;
   numbers(text, "    <dynamics damping=\"", &c->damping, 1, "\"");
   numbers(text, " friction=\"", &c->friction, 1, "\"/>\n");
 }
 
-static const char *kind_of(const ambulo_coordinate *c) {
-  if (!c) return "fixed";
+static const char *kind_of(const ambulo_link *link, const ambulo_coordinate *c) {
+  if (!link) return "fixed";
+  if (!c) return link->type == AMBULO_PRISMATIC ? "prismatic" : "continuous";
   if (c->type == AMBULO_PRISMATIC) return "prismatic";
   return isfinite(c->range[0]) || isfinite(c->range[1]) ? "revolute" : "continuous";
 }
 
 static void print_urdf_joint(const ambulo__bodies *bodies, const ambulo__export_body *body,
                              ambulo__text_buffer *text) {
+  const ambulo_model *model = bodies->model;
+  const ambulo_link *link = body->joints ? &model->links[body->link_of[0]] : NULL;
   const ambulo_coordinate *c =
-      body->joints ? &bodies->model->coordinates[body->coordinate[0]] : NULL;
+      link && link->coordinate >= 0 ? &model->coordinates[link->coordinate] : NULL;
+  const ambulo_coordinate unlimited_one = ambulo_coordinate_default();
   ambulo__rigid origin = ambulo__rigid_times(&body->before, &body->after);
-  ambulo__markup_text(text, "  <joint name=\"", c ? c->name : body->name, c ? "" : "_fixed");
-  ambulo__text_append_format(text, "\" type=\"%s\">\n", kind_of(c));
+  ambulo__markup_text(text, "  <joint name=\"", c ? c->name : body->name,
+                      c      ? ""
+                      : link ? "_coupled"
+                             : "_fixed");
+  ambulo__text_append_format(text, "\" type=\"%s\">\n", kind_of(link, c));
   ambulo__markup_text(text, "    <parent link=\"", ambulo__export_name(bodies, body->parent),
                       "\"/>\n");
   ambulo__markup_text(text, "    <child link=\"", body->name, "\"/>\n");
   print_origin(&origin, text);
-  if (c) {
+  if (link) {
     double axis[3];
     ambulo__rigid_back(&body->after, body->axis[0], axis);
-    numbers(text, "    <axis xyz=\"", axis, 3, "\"/>\n");
-    print_limit(c, text);
+    ambulo__markup_numbers(text, "    <axis xyz=\"", axis, 3, "\"/>\n");
+    print_limit(c ? c : &unlimited_one, link->type, text);
+    if (!c) ambulo__export_mimic(model, body->link_of[0], text);
   }
   ambulo__text_append(text, "  </joint>\n");
 }

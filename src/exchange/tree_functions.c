@@ -29,7 +29,7 @@ int ambulo__function_is_line(const ambulo__tree_function *f) {
 }
 
 double ambulo__function_value(const ambulo__tree *tree, const ambulo__tree_function *f, double x) {
-  ambulo_link link = {.spline = f->points, .spline_count = f->count};
+  ambulo_link link = {.knots = (const double(*)[2])(const void *)f->points, .knot_count = f->count};
   memcpy(link.polynomial, f->polynomial, sizeof link.polynomial);
   ambulo__coupling coupling = {.count = ambulo__coupling_count(&link)};
   ambulo__piece *pieces = ambulo__arena_take(tree->arena, (size_t)coupling.count, sizeof *pieces);

@@ -21,7 +21,7 @@ static void units_of_both_sides(void **state) {
   assert_int_equal(ambulo_model_coordinate_count(c.model), 2);
   assert_int_equal(shank->coordinate, -1);
   assert_int_equal(shank->coupled_to, 0);
-  assert_int_equal(shank->spline_count, 0);
+  assert_int_equal(shank->knot_count, 0);
   assert_close(shank->polynomial[0], pi / 2, 1e-15);
   assert_close(shank->polynomial[1], 2, 1e-15);
   assert_close(shank->polynomial[2], 0.5 * 180 / pi, 1e-13);
@@ -33,9 +33,9 @@ static void units_of_both_sides(void **state) {
   model_shut(&c);
   c = model_good(COUPLED("revolute", DH "coupled: {to: lift, spline: [[0, 0], [0.1, 90]]}"));
   assert_int_equal(shank_of(&c)->coupled_to, 1);
-  assert_int_equal(shank_of(&c)->spline_count, 2);
-  assert_close(shank_of(&c)->spline[2], 0.1, 0);
-  assert_close(shank_of(&c)->spline[3], pi / 2, 1e-15);
+  assert_int_equal(shank_of(&c)->knot_count, 2);
+  assert_close(shank_of(&c)->knots[1][0], 0.1, 0);
+  assert_close(shank_of(&c)->knots[1][1], pi / 2, 1e-15);
   model_shut(&c);
 }
 
@@ -51,8 +51,8 @@ static void beside_an_origin(void **state) {
     if (link->coupled_to < 0) continue;
     coupled++;
     assert_int_equal(link->type, AMBULO_REVOLUTE);
-    assert_int_equal(link->spline_count, 3);
-    assert_close(link->spline[5], pi / 9, 1e-15);
+    assert_int_equal(link->knot_count, 3);
+    assert_close(link->knots[2][1], pi / 9, 1e-15);
   }
   assert_int_equal(coupled, 1);
   assert_true(shank_of(&c)->mass > 0);

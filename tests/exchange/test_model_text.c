@@ -1,4 +1,4 @@
-/* Text for XML, OpenSim's angles back to the rotation they are of, and what becomes of drives. */
+/* OpenSim's angles back to the rotation they are of, and what becomes of drives. */
 #include "exchange/export.h"
 
 #include "ambulo/tools/export.h"
@@ -11,18 +11,6 @@
 #include "support/scratch.h"
 #include "support/still_walker.h"
 #include "support/test.h"
-
-static void entities(void **state) {
-  (void)state;
-  ambulo__text_buffer text;
-  ambulo__text_init(&text, NULL);
-  ambulo__markup_text(&text, "<x>", "a<b & \"c\">", "</x>");
-  assert_string_equal(ambulo__text_data(&text), "<x>a&lt;b &amp; &quot;c&quot;&gt;</x>");
-  ambulo__text_clear(&text);
-  ambulo__markup_element(&text, 2, "axis", (double[]){-0.0, 0.1, 1e-300}, 3);
-  assert_string_equal(ambulo__text_data(&text), "\t\t<axis>0 0.1 1e-300</axis>\n");
-  ambulo__text_free(&text);
-}
 
 /* also where the middle angle is a right one, or nearly */
 static void angles(void **state) {
@@ -125,7 +113,6 @@ static void drives(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(entities),
       cmocka_unit_test_setup_teardown(drives, scratch_open, scratch_close),
       cmocka_unit_test(angles),
       cmocka_unit_test_setup_teardown(axes_that_are_made_up, scratch_open, scratch_close)};

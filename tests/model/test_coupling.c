@@ -113,8 +113,8 @@ static ambulo_status build(int coupled_to, ambulo_joint_type type, int count, co
   links[1].parent = 0;
   links[1].mass = 1;
   links[1].coupled_to = coupled_to;
-  links[1].spline = spline;
-  links[1].spline_count = count;
+  links[1].knots = (const double(*)[2])(const void *)spline;
+  links[1].knot_count = count;
   links[1].polynomial[1] = coefficient;
   d.links = links;
   d.link_count = 2;
@@ -134,7 +134,7 @@ static void a_model_keeps_its_functions(void **state) {
   const ambulo_link *link = ambulo_model_link(model, 1);
   assert_int_equal(link->coordinate, -1);
   assert_int_equal(link->coupled_to, 0);
-  assert_close(link->spline[1], 1, 0);
+  assert_close(link->knots[0][1], 1, 0);
   const double q[1] = {0.5};
   assert_close(ambulo__joint_value(model, 1, q, NULL), 2, 1e-15);
   ambulo_conditions conditions = ambulo_conditions_default();

@@ -233,8 +233,8 @@ static inline void random_function(random_source *source, ambulo_link *link, dou
     spline[2 * k + 1] = random_between(source, -0.5, 0.5);
     x += random_between(source, 0.2, 1.5);
   }
-  link->spline = spline;
-  link->spline_count = count;
+  link->knots = (const double(*)[2])(const void *)spline;
+  link->knot_count = count;
 }
 
 /* Couples about a third of the joints to coordinates that are left, at least one: above, below or

@@ -92,7 +92,7 @@ static void stretch_functions(ambulo_model *m, double longer) {
     if (link->coupled_to < 0) continue;
     double value = link->type == AMBULO_PRISMATIC ? longer : 1.0;
     double by = m->coordinates[link->coupled_to].type == AMBULO_PRISMATIC ? longer : 1.0;
-    for (int k = 0; k < link->spline_count; k++, at += 2) {
+    for (int k = 0; k < link->knot_count; k++, at += 2) {
       at[0] *= by;
       at[1] *= value;
     }

@@ -100,12 +100,12 @@ void ambulo__spline_fill(const double *points, int count, ambulo__piece *p) {
 }
 
 int ambulo__coupling_count(const ambulo_link *link) {
-  return link->spline_count > 0 ? link->spline_count + 1 : 1;
+  return link->knot_count > 0 ? link->knot_count + 1 : 1;
 }
 
 void ambulo__coupling_fill(const ambulo_link *link, ambulo__piece *pieces) {
-  if (link->spline_count > 0) {
-    ambulo__spline_fill(link->spline, link->spline_count, pieces);
+  if (link->knot_count > 0) {
+    ambulo__spline_fill(link->knots[0], link->knot_count, pieces);
     return;
   }
   *pieces = straight(-HUGE_VAL, 0.0, 0.0, 0.0);

@@ -76,10 +76,10 @@ static const char *keep(char **end, const char *name) {
 
 static void copy_function(ambulo_model *m, ambulo_link *link, const numbering *n,
                           double **splines) {
-  size_t numbers = 2 * (size_t)link->spline_count;
+  size_t numbers = 2 * (size_t)link->knot_count;
   link->coupled_to = n->new_coordinate[link->coupled_to];
-  if (numbers > 0) memcpy(*splines, link->spline, numbers * sizeof **splines);
-  link->spline = numbers > 0 ? *splines : NULL;
+  if (numbers > 0) memcpy(*splines, link->knots, numbers * sizeof **splines);
+  link->knots = numbers > 0 ? (const double(*)[2])(const void *)*splines : NULL;
   *splines += numbers;
   m->coupled_count++;
 }
@@ -170,7 +170,7 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   size_t points = 0, pieces = 0;
   for (int i = 0; i < d->link_count; i++) {
     if (d->links[i].coupled_to < 0) continue;
-    points += (size_t)d->links[i].spline_count;
+    points += (size_t)d->links[i].knot_count;
     pieces += (size_t)ambulo__coupling_count(&d->links[i]);
   }
   m->couplings = ambulo__alloc(a, links, sizeof *m->couplings);

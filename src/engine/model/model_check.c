@@ -274,10 +274,10 @@ static void check_cycles(ambulo__checker *c) {
 
 /* what is wrong with the points of a spline; NULL: nothing */
 static const char *fault_of_spline(const ambulo_link *link) {
-  const double *points = link->spline;
-  if (link->spline_count < 2 || link->spline_count > AMBULO__MOST_KNOTS || !points)
+  const double *points = link->knots ? link->knots[0] : NULL;
+  if (link->knot_count < 2 || link->knot_count > AMBULO__MOST_KNOTS || !points)
     return "expected 2 to 1024 points";
-  for (int k = 0; k < 2 * link->spline_count; k++) {
+  for (int k = 0; k < 2 * link->knot_count; k++) {
     if (!isfinite(points[k]) || fabs(points[k]) > 1e6) return "expected finite numbers up to 1e6";
     if (k >= 2 && k % 2 == 0 && points[k] - points[k - 2] < 1e-9)
       return "expected coordinates that rise from point to point, by 1e-9 or more";
@@ -307,14 +307,14 @@ static void check_coupling(ambulo__checker *c, int i) {
                               "%d); expected 0 to %d",
                               name_of(c, i), link->coupled_to, c->definition->coordinate_count - 1);
   }
-  const char *fault = link->spline_count != 0 ? fault_of_spline(link) : fault_of_polynomial(link);
+  const char *fault = link->knot_count != 0 ? fault_of_spline(link) : fault_of_polynomial(link);
   if (!fault) return;
-  c->status = ambulo__error(
-      c->diagnostics, AMBULO_E_MODEL, place, NULL,
-      "the function of coupled link '%s' is not usable (its %s has %d "
-      "numbers); %s",
-      name_of(c, i), link->spline_count != 0 ? "spline" : "polynomial",
-      link->spline_count != 0 ? 2 * link->spline_count : AMBULO__COUPLING_TERMS, fault);
+  c->status =
+      ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                    "the function of coupled link '%s' is not usable (its %s has %d "
+                    "numbers); %s",
+                    name_of(c, i), link->knot_count != 0 ? "spline" : "polynomial",
+                    link->knot_count != 0 ? 2 * link->knot_count : AMBULO__COUPLING_TERMS, fault);
 }
 
 static void check_link(ambulo__checker *c, int i) {

@@ -304,7 +304,7 @@ static hash add_bodies(hash h, const ambulo_model *model) {
     h = add_numbers(h, &link->theta, 4);
     if (link->coupled_to >= 0) {
       h = add_integers(h, &link->coupled_to, 1);
-      h = add_numbers(h, link->spline, 2 * (size_t)link->spline_count);
+      h = add_numbers(h, link->knots, 2 * (size_t)link->knot_count);
       h = add_numbers(h, link->polynomial, AMBULO__COUPLING_TERMS);
     }
     h = add_numbers(add_numbers(add_numbers(h, &link->mass, 1), link->com, 3), link->inertia, 6);

@@ -60,8 +60,8 @@ static void read_spline(ambulo__reader *reader, const ambulo__yaml_node *node, u
                              ambulo__number_text(pair[0]).text, ambulo__number_text(before).text);
     return;
   }
-  link->spline = points;
-  link->spline_count = count;
+  link->knots = (const double(*)[2])(const void *)points;
+  link->knot_count = count;
 }
 
 void ambulo__read_coupling(ambulo__reader *reader, const ambulo__yaml_node *node,

@@ -101,8 +101,8 @@ static void name_row(char *text, const char *name, int link, const char *part) {
 static void move_function(ambulo_link *row, const ambulo_link *link, int moves) {
   const ambulo_link none = ambulo_link_default(), *from = moves ? link : &none;
   row->coupled_to = from->coupled_to;
-  row->spline = from->spline;
-  row->spline_count = from->spline_count;
+  row->knots = from->knots;
+  row->knot_count = from->knot_count;
   memcpy(row->polynomial, from->polynomial, sizeof row->polynomial);
 }
 
