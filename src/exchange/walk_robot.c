@@ -105,7 +105,6 @@ static void print_posture(const ambulo__walker *w, ambulo__part_of_body part, co
                           ambulo__text_buffer *text) {
   static const double degree = 0.017453292519943295;
   ambulo__walk_map map = {0};
-  int angles = 0;
   for (int pass = 0; pass < 2; pass++) {
     for (int c = 0; c < w->count; c++) {
       int counts = part == AMBULO__PART_ROOT ? is_hinge(w, c) : 1;
@@ -117,7 +116,6 @@ static void print_posture(const ambulo__walker *w, ambulo__part_of_body part, co
         map = ambulo__walk_map_begin(text, 4, pass ? "angles" : "scale");
       }
       ambulo__walk_map_item(&map, ambulo_model_coordinate(w->model, c)->name, &value, 1);
-      angles |= pass;
     }
     if (map.text) ambulo__walk_map_end(&map);
     map.text = NULL;
