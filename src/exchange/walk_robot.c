@@ -36,7 +36,8 @@ static void print_head(const ambulo__walker *w, ambulo__text_buffer *text) {
           "pendulum they make. Change what you like; '--set gait.speed=' and others do\n# it for "
           "one solve.\n\n");
   ambulo__text_append(text, "ambulo: 1\nkind: problem\nname: walk\n");
-  ambulo__text_append_format(text, "model: %s\nangles: degrees\n\n", w->file);
+  ambulo__walk_model(text, w->file);
+  ambulo__text_append(text, "angles: degrees\n\n");
 }
 
 static void print_gait(const ambulo__walker *w, ambulo__text_buffer *text) {
