@@ -15,7 +15,7 @@
 
 #include <math.h>
 
-enum { STEP_INTERVALS = 72, STEP_PIECES = 10 };
+enum { STEP_INTERVALS = 64, STEP_PIECES = 10 };
 
 static void line_of(ambulo__text_buffer *text, const char *before, double value,
                     const char *after) {
