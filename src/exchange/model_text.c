@@ -301,8 +301,8 @@ static void print_limit(const ambulo_coordinate *c, ambulo_joint_type type,
   if (ranged) ambulo__markup_numbers(text, " upper=\"", &high, 1, "\"");
   ambulo__text_append(text, "/>\n");
   if (c->damping == 0.0 && c->friction == 0.0) return;
-  numbers(text, "    <dynamics damping=\"", &c->damping, 1, "\"");
-  numbers(text, " friction=\"", &c->friction, 1, "\"/>\n");
+  ambulo__markup_numbers(text, "    <dynamics damping=\"", &c->damping, 1, "\"");
+  ambulo__markup_numbers(text, " friction=\"", &c->friction, 1, "\"/>\n");
 }
 
 static const char *kind_of(const ambulo_link *link, const ambulo_coordinate *c) {

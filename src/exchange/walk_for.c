@@ -63,13 +63,21 @@ static int is_sane(double value) {
   return isnan(value) || (value > 0.0 && value <= 100.0);
 }
 
+/* names stand in comments */
+static int is_one_line(const char *name) {
+  for (; *name; name++)
+    if ((unsigned char)*name < ' ') return 0;
+  return 1;
+}
+
 ambulo_status ambulo_walk_for(const char *model, const ambulo_walk_options *options,
                               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                               char **text) {
   ambulo_walk_options own;
   if (!AMBULO__OWN(ambulo_walk_options, &own, options)) return AMBULO_E_ARGUMENT;
-  if (!model || !model[0] || !text || !is_sane(own.speed) || !is_sane(own.step_length) ||
-      (own.gait && !ambulo__is_gait_of_four(own.gait)))
+  if (!model || !model[0] || !text || !is_one_line(model) ||
+      (own.model && !is_one_line(own.model)) || !is_sane(own.speed) ||
+      !is_sane(own.step_length) || (own.gait && !ambulo__is_gait_of_four(own.gait)))
     return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__text_buffer buffer;

@@ -152,10 +152,9 @@ static void print_head(const fitted *f, double stature) {
   ambulo__text_append(f->text, " m has. Strengths are a person's peak torques (N m: positive,\n"
                                "# then negative) over the fitted price. Coordinates that the "
                                "shipped body lacks rest in the\n# start pose.\n\n");
-  ambulo__text_append_format(f->text,
-                             "ambulo: 1\nkind: problem\nname: walk\nmodel: %s\n"
-                             "angles: degrees\n\n",
-                             w->file);
+  ambulo__text_append(f->text, "ambulo: 1\nkind: problem\nname: walk\n");
+  ambulo__walk_model(f->text, w->file);
+  ambulo__text_append(f->text, "angles: degrees\n\n");
 }
 
 static void print_gait(const fitted *f, double width) {

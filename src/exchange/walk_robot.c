@@ -15,7 +15,7 @@
 
 #include <math.h>
 
-enum { STEP_INTERVALS = 72, STEP_PIECES = 10 };
+enum { STEP_INTERVALS = 64, STEP_PIECES = 10 };
 
 static void line_of(ambulo__text_buffer *text, const char *before, double value,
                     const char *after) {
@@ -36,7 +36,8 @@ static void print_head(const ambulo__walker *w, ambulo__text_buffer *text) {
           "pendulum they make. Change what you like; '--set gait.speed=' and others do\n# it for "
           "one solve.\n\n");
   ambulo__text_append(text, "ambulo: 1\nkind: problem\nname: walk\n");
-  ambulo__text_append_format(text, "model: %s\nangles: degrees\n\n", w->file);
+  ambulo__walk_model(text, w->file);
+  ambulo__text_append(text, "angles: degrees\n\n");
 }
 
 static void print_gait(const ambulo__walker *w, ambulo__text_buffer *text) {
@@ -105,7 +106,6 @@ void ambulo__walk_posture(const ambulo__walker *w, ambulo__part_of_body part, co
                           ambulo__text_buffer *text) {
   static const double degree = 0.017453292519943295;
   ambulo__walk_map map = {0};
-  int angles = 0;
   for (int pass = 0; pass < 2; pass++) {
     for (int c = 0; c < w->count; c++) {
       int counts = part == AMBULO__PART_ROOT ? is_hinge(w, c) : 1;
@@ -117,7 +117,6 @@ void ambulo__walk_posture(const ambulo__walker *w, ambulo__part_of_body part, co
         map = ambulo__walk_map_begin(text, 4, pass ? "angles" : "scale");
       }
       ambulo__walk_map_item(&map, ambulo_model_coordinate(w->model, c)->name, &value, 1);
-      angles |= pass;
     }
     if (map.text) ambulo__walk_map_end(&map);
     map.text = NULL;

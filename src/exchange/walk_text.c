@@ -20,6 +20,18 @@ void ambulo__walk_number(ambulo__text_buffer *text, double value) {
   ambulo__text_append_number(text, ambulo__significant(value, 4));
 }
 
+void ambulo__walk_model(ambulo__text_buffer *text, const char *file) {
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./";
+  int quoted = 0;
+  for (const char *c = file; *c; c++) quoted |= !strchr(plain, *c) && *c != '-';
+  ambulo__text_append(text, quoted ? "model: '" : "model: ");
+  for (const char *c = file; *c; c++) {
+    ambulo__text_append_char(text, *c);
+    if (quoted && *c == '\'') ambulo__text_append_char(text, *c);
+  }
+  ambulo__text_append(text, quoted ? "'\n" : "\n");
+}
+
 ambulo__walk_map ambulo__walk_map_begin(ambulo__text_buffer *text, int indent, const char *key) {
   ambulo__text_append_format(text, "%*s%s: {", indent, "", key);
   return (ambulo__walk_map){

@@ -49,6 +49,9 @@ double ambulo__walker_slope(const ambulo__walker *walker, int foot, const double
 double ambulo__significant(double x, int digits);
 void ambulo__walk_number(ambulo__text_buffer *text, double value); /* with four */
 
+/* The line that names the model; in quotes where its name asks for them. */
+void ambulo__walk_model(ambulo__text_buffer *text, const char *file);
+
 /* A mapping of names to values in braces, in lines of at most 100 columns, `indent` spaces deep:
  * begin, an item each, end. */
 typedef struct ambulo__walk_map {

@@ -57,6 +57,7 @@ static void wrong_arguments(void **state) {
   (void)state;
   assert_int_equal(ambulo_walk_for(NULL, NULL, NULL, NULL, &text), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_walk_for("m.yaml", NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_walk_for("m\n.yaml", NULL, NULL, NULL, &text), AMBULO_E_ARGUMENT);
   options.speed = -1.0;
   assert_int_equal(ambulo_walk_for("m.yaml", &options, NULL, NULL, &text), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_walk_for("none.yaml", NULL, NULL, NULL, &text), AMBULO_E_IO);

@@ -31,10 +31,24 @@ static void lines(void **state) {
   ambulo__text_free(&text);
 }
 
+static void names_of_models(void **state) {
+  (void)state;
+  static const char *const names[][2] = {{"a-b/c_1.yaml", "model: a-b/c_1.yaml\n"},
+                                         {"my robot's: 1.yaml", "model: 'my robot''s: 1.yaml'\n"}};
+  for (int i = 0; i < 2; i++) {
+    ambulo__text_buffer text;
+    ambulo__text_init(&text, NULL);
+    ambulo__walk_model(&text, names[i][0]);
+    assert_string_equal(ambulo__text_data(&text), names[i][1]);
+    ambulo__text_free(&text);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(digits),
       cmocka_unit_test(lines),
+      cmocka_unit_test(names_of_models),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
