@@ -10,6 +10,7 @@
  *     picture.h  results as pictures: SVG, PDF, PNG
  *     page.h     results to watch, as one HTML file
  *     import.h   models of OpenSim, URDF and MuJoCo
+ *     retarget.h a motion of one body as a task for another
  *     export.h   models and motions for OpenSim, URDF and NumPy
  *
  * The tools are outside the promise of ambulo/ambulo.h. They may change with any release.
@@ -29,4 +30,5 @@
 #include "ambulo/tools/page.h"
 #include "ambulo/tools/picture.h"
 #include "ambulo/tools/report.h"
+#include "ambulo/tools/retarget.h"
 #endif

@@ -35,6 +35,7 @@ static const ambulo__usual rows[] = {
         {.shard = 1, .shards = 1, .case_seconds = AMBULO_OFF, .grace = 30.0}),
     ROW(ambulo_fit_options, 1, {.case_seconds = AMBULO_OFF, .grace = 30.0}),
     ROW(ambulo_import_options, 1, {0}),
+    ROW(ambulo_retarget_options, 1, {.from = -INFINITY, .to = INFINITY}),
     ROW(ambulo_export_options, 1, {.format = AMBULO_EXPORT_OPENSIM}),
 };
 
