@@ -12,7 +12,7 @@ static const double heel_low = 0.018, heel_high = 0.018, toe_low = 0.022, toe_hi
 static const double slow = 0.25, fast = 0.35;           /* m/s of a body that stands */
 static const double slow_share = 0.25, fast_share = 0.3; /* of the body's speed, in addition */
 static const double neighbourhood = 0.35, shortest_gap = 0.07, shortest_stance = 0.08,
-                    shortest_phase = 0.045;
+                    shortest_phase = 0.055;
 
 enum { HEEL = 1, TOE = 2 };
 

@@ -79,6 +79,30 @@ static void print_map(const job *j, ambulo__text_buffer *text) {
   ambulo__segments_print(j->target_model, &j->target.map, text);
 }
 
+/* a skeleton that came with the motion, and how it moves */
+static ambulo_status write_source(const job *j, ambulo__folder *folder) {
+  const ambulo__given *g = &j->given;
+  ambulo__text_buffer text;
+  if (!g->own) return AMBULO_OK;
+  ambulo_status status = write_text(folder, "source.yaml", AMBULO_OK, &g->text, j->diagnostics);
+  ambulo__text_init(&text, &j->allocator);
+  ambulo__text_append(&text, "time");
+  for (int c = 0; c < g->body->coordinate_count; c++)
+    ambulo__text_append_format(&text, ",%s", g->body->coordinates[c].name);
+  for (size_t k = 0, d = (size_t)g->body->coordinate_count; k < (size_t)g->rows; k++) {
+    ambulo__text_append(&text, "\n");
+    ambulo__text_append_number(&text, g->time[k]);
+    for (size_t c = 0; c < d; c++) {
+      ambulo__text_append(&text, ",");
+      ambulo__text_append_number(&text, g->q[k * d + c]);
+    }
+  }
+  ambulo__text_append(&text, "\n");
+  status = write_text(folder, "source.csv", status, &text, j->diagnostics);
+  ambulo__text_free(&text);
+  return status;
+}
+
 static ambulo_status copy_model(const job *j, ambulo__folder *folder) {
   char *text = NULL;
   size_t length = 0;
@@ -100,6 +124,7 @@ static ambulo_status fill(const job *j, ambulo__folder *folder) {
   ambulo__text_clear(&text);
   print_map(j, &text);
   status = write_text(folder, "map.yaml", status, &text, j->diagnostics);
+  if (!status) status = write_source(j, folder);
   if (!status) status = copy_model(j, folder);
   ambulo__text_free(&text);
   return status;

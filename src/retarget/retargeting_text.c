@@ -69,7 +69,7 @@ static int is_followed(const ambulo__figure *figure, int coordinate) {
 
 static void print_time(const ambulo__retargeting *plan, double duration, ambulo__text_buffer *text) {
   /* per second */
-  static const double nodes = 120.0, knots = 28.0;
+  static const double nodes = 100.0, knots = 24.0;
   double size = sqrt(plan->target->leg / 0.9); /* small bodies move faster */
   line(text, "time: {duration: ", duration, ", grid: events, intervals: ");
   ambulo__text_append_format(text, "%.0f}\ntrajectory: {basis: bspline, degree: 4, intervals: %.0f",
@@ -78,18 +78,38 @@ static void print_time(const ambulo__retargeting *plan, double duration, ambulo_
   ambulo__text_append(text, ", knots: events}\n\n");
 }
 
+/* On an edge a sole gives way: pressure may be a little behind it, and where a foot's own edge is
+ * exact a solve takes many times as long. */
+static void print_pressure(const ambulo__retargeting *plan, ambulo__text_buffer *text) {
+  static const double share = 0.12; /* of the foot's length */
+  const ambulo__figure *f = plan->target;
+  const ambulo_foot *foot = &f->model->feet[f->foot[0]];
+  double edge = rounded(share * (f->toe[0][0] - f->heel[0][0]), 1e-3), width = 0.0;
+  if (foot->toe[1] >= 0) {
+    const double *one = f->model->points[foot->toe[0]].position,
+                 *other = f->model->points[foot->toe[1]].position;
+    for (int i = 0; i < 3; i++) width += (one[i] - other[i]) * (one[i] - other[i]);
+  }
+  ambulo__text_append(text, "\nground_reaction: {kind: shared, loading_rate: 40, friction: 0.6, "
+                            "free_moment: 0.03,\n  pressure: {heel: [-0.005, ");
+  ambulo__text_append_number(text, edge);
+  line(text, "], roll: ", edge, ", flat: [0, 0], toe: [");
+  line(text, "", -edge, ", 0.005]");
+  if (width > 0.0) line(text, ", width: ", rounded(0.5 * sqrt(width), 1e-4), "");
+  ambulo__text_append(text, "}}\n\n");
+}
+
 static void print_rows(const ambulo__retargeting *plan, ambulo__text_buffer *text) {
-  ambulo__text_append(text,
-                      "\nground_reaction: {kind: shared, friction: 0.6, free_moment: 0.03,\n"
-                      "  pressure: {heel: [-0.01, 0.02], roll: 0.02, flat: [0, 0], toe: [-0.02, 0.01], width: 0.03}}\n\n"
-                      "constraints:\n"
-                      "  contact_tolerance: 0.0004\n"
-                      "  orientation_tolerance: 0.003\n"
-                      "  clearance: {height: 0.015, tip_from: 0.2, ceiling: 1, turn: 0.9,\n"
-                      "    outward: 0.5, inward: 0.5}\n"
-                      "  joint_limits: nodes\n"
-                      "  speed_limits: true\n"
-                      "  torque_limits: true\n\n");
+  print_pressure(plan, text);
+  ambulo__text_append(text, "constraints:\n"
+                            "  contact_tolerance: 0.0005\n"
+                            "  orientation_tolerance: 0.004\n"
+                            "  clearance: {height: 0.015, tip_from: 0.2, ceiling: 1, turn: 0.9,\n"
+                            "    outward: 0.5, inward: 0.5}\n"
+                            "  joint_limits: nodes\n"
+                            "  speed_limits: true\n"
+                            "  torque_limits: true\n\n"
+                            "solver: {feasibility_tolerance: 1e-5, optimality_tolerance: 0.01}\n\n");
   if (plan->repeats) {
     line(text, "ends: {kind: periodic, order: 2, travel: ", rounded(plan->travel, 1e-4), "");
     if (plan->rise != 0.0) line(text, ", rise: ", rounded(plan->rise, 1e-4), "");
@@ -173,7 +193,7 @@ void ambulo__retargeting_reference(const ambulo__retargeting *plan, ambulo__text
     if (is_followed(plan->target, c))
       ambulo__text_append_format(text, ",%s", model->coordinates[c].name);
   for (int k = 0; k < plan->rows; k++) {
-    line(text, "\n", k + 1 < plan->rows ? rounded(plan->time[k], 1e-6) : plan->time[k] + 1e-4, "");
+    line(text, "\n", rounded(plan->time[k], k + 1 < plan->rows ? 1e-6 : 1e-4), "");
     for (int c = 0; c < d; c++)
       if (is_followed(plan->target, c))
         line(text, ",", rounded(plan->q[(size_t)k * (size_t)d + (size_t)c], 1e-6), "");

@@ -77,8 +77,7 @@ static const struct {
     {"*abdomen*", AMBULO__TORSO},
 };
 
-/* the name's segment by the table above, -1: none */
-static int segment_of(const char *name) {
+int ambulo__segment_of(const char *name) {
   char small[AMBULO__NUMTEXT_SIZE * 4];
   size_t length = 0;
   for (; name[length] && length + 1 < sizeof small; length++)
@@ -157,7 +156,7 @@ void ambulo__segments_find(const ambulo_model *model, const ambulo__yaml_node *t
   for (int c = 0; c < model->coordinate_count && c < MOST_COORDINATES; c++) {
     const ambulo_coordinate *about = &model->coordinates[c];
     if (of_root[c] || about->type != AMBULO_REVOLUTE) continue;
-    int segment = segment_of(about->name);
+    int segment = ambulo__segment_of(about->name);
     if (segment >= 0) add(map, segment, c);
   }
   for (int segment = AMBULO__TORSO; segment < AMBULO__SEGMENTS; segment++) {

@@ -41,6 +41,9 @@ int ambulo__segment_above(int segment);
 /* "thigh_r". */
 const char *ambulo__segment_word(int segment);
 
+/* The segment that the built-in table has for a name; -1: none. */
+int ambulo__segment_of(const char *name);
+
 /* By the built-in table, then by `table` (a mapping segment: list of names; NULL: none), whose
  * segments replace those of the built-in one. A name may be a pattern with * and ?. A name that is
  * no coordinate's is an error of the table's document. */

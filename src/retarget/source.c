@@ -1,11 +1,10 @@
-/* retarget/source.c - see source.h; tables of angles. */
+/* retarget/source.c - see source.h: memory of a given motion; tables of angles. */
 #include "retarget/source.h"
 
 #include "formats/motion_file.h"
 #include "model/model.h"
 
 #include <math.h>
-#include <string.h>
 
 void ambulo__given_free(ambulo__given *given) {
   ambulo__free(&given->allocator, given->time);
@@ -41,7 +40,7 @@ static ambulo_status take_coordinate(const ambulo__motion *table, const char *pa
   return AMBULO_OK;
 }
 
-static ambulo_status read_table(const char *path, ambulo_diagnostics *diagnostics,
+ambulo_status ambulo__given_table(const char *path, ambulo_diagnostics *diagnostics,
                                 ambulo__given *given) {
   ambulo__motion *table = NULL;
   int found = 0;
@@ -58,49 +57,5 @@ static ambulo_status read_table(const char *path, ambulo_diagnostics *diagnostic
                            "example '%s'",
                            given->body->name, given->body->coordinates[0].name);
   ambulo__motion_free(table);
-  return status;
-}
-
-/* ---------------------------------------------------------------------------- part */
-
-/* rows in [from, to], from time 0 on; a belt that runs backward adds to the way */
-static ambulo_status cut(const char *path, const ambulo_retarget_options *o,
-                         ambulo_diagnostics *diagnostics, ambulo__given *given) {
-  enum { FEWEST = 8 };
-  size_t d = (size_t)given->body->coordinate_count, first = 0, last = (size_t)given->rows;
-  while (first < last && given->time[first] < o->from - 1e-9) first++;
-  while (last > first && given->time[last - 1] > o->to + 1e-9) last--;
-  if (last - first < FEWEST)
-    return ambulo__error(diagnostics, AMBULO_E_SCHEMA, (ambulo__place){.file = path},
-                         "--from and --to choose a part",
-                         "%zu rows are left of the motion; expected at least %d", last - first,
-                         FEWEST);
-  double start = given->time[first];
-  for (size_t k = first; k < last; k++) given->time[k - first] = given->time[k] - start;
-  memmove(given->q, given->q + first * d, (last - first) * d * sizeof *given->q);
-  given->rows = (int)(last - first);
-  if (!isfinite(given->time[given->rows - 1])) return AMBULO_E_SCHEMA;
-  for (size_t at = 0; at < (size_t)given->rows * d; at++)
-    if (!isfinite(given->q[at]))
-      return ambulo__error(diagnostics, AMBULO_E_SCHEMA, (ambulo__place){.file = path},
-                           "--from and --to choose a part without gaps",
-                           "'%s' has no value at %g s", given->body->coordinates[at % d].name,
-                           given->time[at / d] + start);
-  return AMBULO_OK;
-}
-
-ambulo_status ambulo__given_read(const char *path, const ambulo_retarget_options *options,
-                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                 ambulo__given *given) {
-  ambulo__given g = {.allocator = ambulo__allocator_or_default(allocator), .body = options->body};
-  ambulo__text_init(&g.text, &g.allocator);
-  ambulo_status status = g.body ? read_table(path, diagnostics, &g)
-                                : ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
-                                                NULL, "a table of angles needs the body it moves");
-  if (!status) status = cut(path, options, diagnostics, &g);
-  if (status)
-    ambulo__given_free(&g);
-  else
-    *given = g;
   return status;
 }

@@ -31,4 +31,12 @@ void ambulo__given_free(ambulo__given *given); /* accepts a zero-filled one */
 /* Room for so many rows. E_MEMORY. */
 ambulo_status ambulo__given_rows(ambulo__given *given, int rows);
 
+/* Whole files of one format; `given` has an allocator and a text, and of a table the body. */
+ambulo_status ambulo__given_table(const char *path, ambulo_diagnostics *diagnostics,
+                                  ambulo__given *given);
+ambulo_status ambulo__given_smpl(const char *path, ambulo_diagnostics *diagnostics,
+                                 ambulo__given *given);
+ambulo_status ambulo__given_bvh(const char *path, ambulo_diagnostics *diagnostics,
+                                ambulo__given *given);
+
 #endif
