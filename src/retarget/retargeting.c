@@ -20,6 +20,24 @@ typedef struct making {
 
 /* ------------------------------------------------------------- the person's motion */
 
+enum { POINTS = 7 };
+typedef double *points_of[POINTS];
+
+/* soles first */
+static void list_points(ambulo__posture *p, points_of points) {
+  points_of all = {p->heel[0],  p->heel[1],  p->toe[0], p->toe[1],
+                   p->ankle[0], p->ankle[1], p->pelvis};
+  memcpy(points, all, sizeof all);
+}
+
+static int lowest_sole(points_of points) {
+  enum { SOLES = 4 };
+  int least = 0;
+  for (int i = 1; i < SOLES; i++)
+    if (points[i][2] < points[least][2]) least = i;
+  return least;
+}
+
 static void turn_about_up(double angle, double v[3]) {
   double c = cos(angle), s = sin(angle), x = v[0];
   v[0] = c * x - s * v[1];
@@ -45,9 +63,9 @@ static void align(making *t) {
   ambulo__rigid back = ambulo__rigid_turn(up, -angle);
   for (int k = 0; k < t->rows; k++) {
     ambulo__posture *p = &t->posture[k];
-    double *const points[] = {p->pelvis,  p->ankle[0], p->ankle[1], p->heel[0],
-                              p->heel[1], p->toe[0],   p->toe[1]};
-    for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
+    points_of points;
+    list_points(p, points);
+    for (int i = 0; i < POINTS; i++) {
       for (int j = 0; j < 2; j++) points[i][j] -= start[j];
       turn_about_up(-angle, points[i]);
     }
@@ -56,13 +74,29 @@ static void align(making *t) {
   }
 }
 
-/* of a belt that runs backward */
+/* of a belt that runs backward, or of periods before and after */
 static void move_on(ambulo__posture *p, double forward, double up) {
-  double *const points[] = {p->pelvis,  p->ankle[0], p->ankle[1], p->heel[0],
-                            p->heel[1], p->toe[0],   p->toe[1]};
-  for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
+  points_of points;
+  list_points(p, points);
+  for (int i = 0; i < POINTS; i++) {
     points[i][0] += forward;
     points[i][2] += up;
+  }
+}
+
+/* Where angles are all there is, the lowest point of the soles is on the ground and stays where it
+ * is until another one is lower. */
+static void place_by_feet(making *t) {
+  for (int k = 0; k < t->rows; k++) {
+    points_of before, points;
+    double shift[3] = {0.0};
+    list_points(&t->posture[k > 0 ? k - 1 : 0], before);
+    list_points(&t->posture[k], points);
+    int held = lowest_sole(before);
+    for (int i = 0; k > 0 && i < 2; i++) shift[i] = before[held][i] - points[held][i];
+    shift[2] = -points[lowest_sole(points)][2];
+    for (int p = 0; p < POINTS; p++)
+      for (int i = 0; i < 3; i++) points[p][i] += shift[i];
   }
 }
 
@@ -107,11 +141,11 @@ static ambulo_status read_person(making *t, double speed) {
   t->rows = g->rows;
   t->posture = ambulo__alloc(&t->plan->allocator, (size_t)g->rows, sizeof *t->posture);
   if (!t->posture) return AMBULO_E_MEMORY;
-  for (int k = 0; k < g->rows; k++) {
+  for (int k = 0; k < g->rows; k++)
     ambulo__figure_at(t->person, g->q + (size_t)k * (size_t)g->body->coordinate_count,
                       &t->posture[k]);
-    move_on(&t->posture[k], speed * g->time[k], 0.0);
-  }
+  if (g->unplaced) place_by_feet(t);
+  for (int k = 0; k < g->rows; k++) move_on(&t->posture[k], speed * g->time[k], 0.0);
   align(t);
   t->plan->repeats = finds_period(t);
   return tile(t);
@@ -168,7 +202,9 @@ static ambulo_status find_footholds(making *t, ambulo_diagnostics *diagnostics, 
 static int stands(const ambulo__retargeting *plan, double time) {
   for (int i = 0; i < plan->footing.count; i++) {
     const ambulo__standing *s = &plan->footing.stance[i];
-    if (time >= s->phase[0].from && time <= s->phase[s->phases - 1].to) return 1;
+    if (time >= s->phase[0].from - AMBULO__INSTANT &&
+        time <= s->phase[s->phases - 1].to + AMBULO__INSTANT)
+      return 1;
   }
   return 0;
 }
@@ -241,6 +277,25 @@ static void close_period(making *t) {
   }
 }
 
+/* A stance over the end goes on at the start: there it is the same one, moved on by the period,
+ * whose way has four digits as the file does. */
+static void join_ends(making *t) {
+  ambulo__retargeting *plan = t->plan;
+  double end = plan->time_ratio * t->given->time[t->rows - 1];
+  for (int i = 0; i < plan->footing.count; i++) {
+    ambulo__standing *last = &plan->footing.stance[i];
+    if (last->phase[last->phases - 1].to < end || last->phase[0].from <= 0.0) continue;
+    for (int k = 0; k < plan->footing.count; k++) {
+      const ambulo__standing *first = &plan->footing.stance[k];
+      if (first->side != last->side || first->phase[0].from > 0.0) continue;
+      last->heading = first->heading;
+      last->ankle[0] = first->ankle[0] + plan->travel;
+      last->ankle[1] = first->ankle[1];
+      last->ankle[2] = first->ankle[2] + plan->rise;
+    }
+  }
+}
+
 ambulo_status ambulo__retargeting_make(const ambulo__given *given, ambulo__figure *person,
                                 ambulo__figure *target, int keep_time, double speed,
                                 ambulo_diagnostics *diagnostics, ambulo__retargeting *plan) {
@@ -254,9 +309,10 @@ ambulo_status ambulo__retargeting_make(const ambulo__given *given, ambulo__figur
   if (!status) status = find_footholds(&t, diagnostics, &floor);
   if (!status) status = make_reference(&t, floor);
   if (!status && p.repeats) {
-    p.travel = ratio * t.travel;
-    p.rise = fabs(t.rise) > 0.03 * person->leg ? ratio * t.rise : 0.0;
+    p.travel = nearbyint(1e4 * ratio * t.travel) / 1e4;
+    p.rise = fabs(t.rise) > 0.03 * person->leg ? nearbyint(1e4 * ratio * t.rise) / 1e4 : 0.0;
     close_period(&t);
+    join_ends(&t);
   }
   if (!status) count_flights(&p);
   ambulo__free(&p.allocator, t.posture);

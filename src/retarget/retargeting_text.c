@@ -177,6 +177,8 @@ void ambulo__retargeting_problem(const ambulo__retargeting *plan, const char *mo
   ambulo__text_append_format(text, "\n# onto model %s.\n", plan->target->model->name);
   line(text, "#\n# Lengths are those of the person times ", rounded(plan->ratio, 1e-4), ", times ");
   line(text, "times ", rounded(plan->time_ratio, 1e-4), ".\n");
+  ambulo__text_append_format(text, "# Contacts were found in the motion; times without a foot on the "
+                                   "ground: %d.\n", plan->flights);
   ambulo__text_append(text, "\nambulo: 1\nkind: problem\nname: retarget\nmodel: ");
   ambulo__text_append_format(text, "%s\nangles: degrees\n\n", model_file);
   print_time(plan, duration, text);

@@ -37,6 +37,7 @@ static ambulo_status take_coordinate(const ambulo__motion *table, const char *pa
     given->q[(size_t)k * (size_t)d + (size_t)c] =
         unit * table->values[(size_t)k * (size_t)table->columns + (size_t)column];
   ++*found;
+  if (about->type == AMBULO_PRISMATIC) given->unplaced = 0;
   return AMBULO_OK;
 }
 
@@ -44,6 +45,7 @@ ambulo_status ambulo__given_table(const char *path, ambulo_diagnostics *diagnost
                                 ambulo__given *given) {
   ambulo__motion *table = NULL;
   int found = 0;
+  given->unplaced = 1;
   ambulo_status status =
       ambulo__motion_read(path, 1, &given->allocator, diagnostics, &table);
   if (!status) status = ambulo__given_rows(given, table->rows);
