@@ -18,7 +18,9 @@ static const char usual_body[] = "whole_body_37.yaml";
 static int read_options(const ambulo__cli_input *input, ambulo_retarget_options *o) {
   *o = ambulo_retarget_options_default();
   o->map = ambulo__cli_value(input, "map");
-  o->keep_time = ambulo__cli_choice(input, "times", 0);
+  static const ambulo_times times[] = {AMBULO_TIMES_NOT_SET, AMBULO_TIMES_SCALED,
+                                       AMBULO_TIMES_KEPT};
+  o->times = times[ambulo__cli_choice(input, "times", -1) + 1];
   o->overwrite = ambulo__cli_flag(input, "force");
   if (!ambulo__cli_value(input, "onto"))
     return ambulo__cli_usage_error("retarget", NULL,
@@ -113,13 +115,15 @@ static const ambulo__cli_option options_table[] = {
     {"output", 'o', "DIR", "folder for the problem, its reference and the result"},
     {"force", 0, NULL, "replace an earlier folder of this command"},
     {"only-write", 0, NULL, "write the problem, and do not solve it"},
-    {"body", 0, "FILE", "the model or problem whose angles MOTION holds (default:\n"
-                        "whole_body_37.yaml, which has OpenSim's names)"},
+    {"body", 0, "FILE",
+     "the model or problem whose angles MOTION holds (default:\n"
+     "whole_body_37.yaml, which has OpenSim's names)"},
     {"map", 0, "FILE", "segments and their coordinates, as map.yaml in DIR has them"},
     {"from", 0, "S", "first time of the motion (default: its start)"},
     {"to", 0, "S", "last time of the motion (default: its end)"},
     {"times", 0, "scaled|kept",
-     "scale times as the root of the legs' lengths (default), or keep them"},
+     "scale times as the root of the legs' lengths, or keep them (default:\n"
+     "scaled where the motion flies)"},
     {"speed", 0, "M/S", "speed of the treadmill on which it was measured"},
     {"time-limit", 0, "S", "stop the solve after this time"},
     {"quiet", 'q', NULL, "print only what follows from the motion, and messages"},
@@ -131,7 +135,8 @@ const ambulo__cli_command ambulo__cli_retarget = {
     .arguments = "MOTION",
     .summary = "make a motion of a person that of another body, such as a robot",
     .description =
-        "Reads a motion (CSV, STO, MOT), finds its contacts, scales its footholds, and writes a\n"
+        "Reads a motion (CSV, STO, MOT, BVH, SMPL in .npz), finds its contacts, scales its "
+        "footholds, and writes a\n"
         "problem that follows its angles within what the other body can do: problem.yaml,\n"
         "reference.csv, model.yaml and map.yaml in DIR. Then it solves the problem into "
         "DIR/result,\n"

@@ -56,7 +56,8 @@ static ambulo_status find_entry(const archive *a, const char *name, entry *e, in
     const char *text = (const char *)a->at + at + CENTRAL_SIZE;
     if (length == wanted + 4 && memcmp(text, name, wanted) == 0 &&
         memcmp(text + wanted, ".npy", 4) == 0) {
-      *e = (entry){.method = number(a, at + 10, 2), .packed = number(a, at + 20, 4),
+      *e = (entry){.method = number(a, at + 10, 2),
+                   .packed = number(a, at + 20, 4),
                    .size = number(a, at + 24, 4)};
       if (local + LOCAL_SIZE > a->length || number(a, local, 4) != LOCAL)
         return damaged(a, "an entry of the archive is damaged");
@@ -154,8 +155,7 @@ ambulo_status ambulo__npz_read(const char *bytes, size_t length, const char *nam
   *array = (ambulo__npz_array){.values = NULL};
   ambulo_status status = find_entry(&a, name, &e, found);
   if (status || !*found) return status;
-  if (e.method == STORED)
-    return read_array(&a, name, bytes + e.at, e.packed, &own, array);
+  if (e.method == STORED) return read_array(&a, name, bytes + e.at, e.packed, &own, array);
   if (e.method != DEFLATED || e.size > most_bytes)
     return damaged(&a, "an entry is packed in another way");
   ambulo__text_buffer out;
@@ -163,11 +163,11 @@ ambulo_status ambulo__npz_read(const char *bytes, size_t length, const char *nam
   status = ambulo__inflate(&out, bytes + e.at, e.packed, e.size);
   if (status == AMBULO_E_IO)
     (void)ambulo__error(diagnostics, status, (ambulo__place){.file = file},
-                        "save it by numpy.savez", "it is deflated, and ambulo was built without "
+                        "save it by numpy.savez",
+                        "it is deflated, and ambulo was built without "
                         "zlib");
   if (status == AMBULO_E_PARSE) (void)damaged(&a, "a deflated entry is damaged");
-  if (!status)
-    status = read_array(&a, name, ambulo__text_data(&out), out.length, &own, array);
+  if (!status) status = read_array(&a, name, ambulo__text_data(&out), out.length, &own, array);
   ambulo__text_free(&out);
   return status;
 }

@@ -9,7 +9,7 @@
 /* for legs of 0.9 m; s */
 static const double leg_of_person = 0.9;
 static const double heel_low = 0.018, heel_high = 0.018, toe_low = 0.022, toe_high = 0.03; /* m */
-static const double slow = 0.25, fast = 0.35;           /* m/s of a body that stands */
+static const double slow = 0.25, fast = 0.35;            /* m/s of a body that stands */
 static const double slow_share = 0.25, fast_share = 0.3; /* of the body's speed, in addition */
 static const double neighbourhood = 0.35, shortest_gap = 0.07, shortest_stance = 0.08,
                     shortest_phase = 0.055;
@@ -160,8 +160,8 @@ static void place(const search *s, ambulo__standing *stance) {
 static ambulo_status add_stance(ambulo__standings *footing, const ambulo__standing *stance) {
   if (footing->count == footing->capacity) {
     int capacity = footing->capacity ? 2 * footing->capacity : 16;
-    ambulo__standing *more = ambulo__realloc(&footing->allocator, footing->stance, (size_t)capacity,
-                                           sizeof *more);
+    ambulo__standing *more =
+        ambulo__realloc(&footing->allocator, footing->stance, (size_t)capacity, sizeof *more);
     if (!more) return AMBULO_E_MEMORY;
     footing->stance = more;
     footing->capacity = capacity;
@@ -206,11 +206,14 @@ static void level_floors(ambulo__standings *footing, double size) {
 }
 
 ambulo_status ambulo__standings_find(const ambulo__figure *figure, const double *time,
-                                   const ambulo__posture *posture, int rows,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo__standings *footing) {
+                                     const ambulo__posture *posture, int rows,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo__standings *footing) {
   ambulo__standings f = {.allocator = ambulo__allocator_or_default(allocator)};
-  search s = {.figure = figure, .time = time, .posture = posture, .rows = rows,
+  search s = {.figure = figure,
+              .time = time,
+              .posture = posture,
+              .rows = rows,
               .size = figure->leg / leg_of_person};
   double way = 0.0;
   for (int k = 1; k < rows; k++)

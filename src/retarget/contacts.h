@@ -36,12 +36,12 @@ typedef struct ambulo__standings {
   int count, capacity;
 } ambulo__standings;
 
-/* Of postures [rows] of the figure, in the order of time for each side. Errors: E_SCHEMA (feet never
- * stand), E_MEMORY. */
+/* Of postures [rows] of the figure, in the order of time for each side. Errors: E_SCHEMA (feet
+ * never stand), E_MEMORY. */
 ambulo_status ambulo__standings_find(const ambulo__figure *figure, const double *time,
-                                   const ambulo__posture *posture, int rows,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo__standings *footing);
+                                     const ambulo__posture *posture, int rows,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo__standings *footing);
 void ambulo__standings_free(ambulo__standings *footing); /* accepts a zero-filled one */
 
 #endif

@@ -12,7 +12,8 @@ double ambulo__heading_of(const ambulo__rigid *turn) {
   return atan2(turn->r[1][0], turn->r[0][0]);
 }
 
-/* Near a half turn the antisymmetric part vanishes; then the axis is the longest column of R + 1. */
+/* Near a half turn the antisymmetric part vanishes; then the axis is the longest column of R + 1.
+ */
 void ambulo__turn_vector(const ambulo__rigid *turn, double vector[3]) {
   double v[3], trace = turn->r[0][0] + turn->r[1][1] + turn->r[2][2];
   for (int i = 0; i < 3; i++) {
@@ -153,8 +154,7 @@ static int mass_center(const ambulo__figure *figure, int link, double center[3])
 
 static int next_of(int segment) {
   int arm = segment >= AMBULO__UPPER_ARM;
-  return segment < AMBULO__THIGH || segment >= AMBULO__FOREARM ||
-                 (!arm && segment >= AMBULO__FOOT)
+  return segment < AMBULO__THIGH || segment >= AMBULO__FOREARM || (!arm && segment >= AMBULO__FOOT)
              ? -1
              : segment + 2;
 }
@@ -195,8 +195,7 @@ static int find_foot(const ambulo__figure *figure, int segment) {
   return -1;
 }
 
-static void measure_leg(ambulo__figure *figure, int side,
-                        double center[AMBULO__SEGMENTS][3]) {
+static void measure_leg(ambulo__figure *figure, int side, double center[AMBULO__SEGMENTS][3]) {
   const double *hip = center[AMBULO__THIGH + side], *knee = center[AMBULO__SHANK + side],
                *ankle = center[AMBULO__FOOT + side];
   ambulo__rigid shank = frame_of(figure, figure->link[AMBULO__SHANK + side]);

@@ -32,8 +32,8 @@ typedef struct ambulo__figure {
   double ankle[AMBULO__SIDES][3];          /* in the frame of the shank's link, m */
   /* at the foot standing flat: from the ankle to heel and toe centre; m */
   double heel[AMBULO__SIDES][3], toe[AMBULO__SIDES][3];
-  double leg;                        /* from the hip to the sole, m */
-  double aside[AMBULO__SIDES];       /* of the ankle when standing, along left, m */
+  double leg;                  /* from the hip to the sole, m */
+  double aside[AMBULO__SIDES]; /* of the ankle when standing, along left, m */
 } ambulo__figure;
 
 /* How a body is at one time. */
@@ -51,8 +51,8 @@ void ambulo__figure_free(ambulo__figure *figure); /* accepts a zero-filled one *
 
 /* The body at q [coordinates]. */
 void ambulo__figure_at(ambulo__figure *figure, const double *q, ambulo__posture *posture);
-/* The line about which a coordinate turns, after ambulo__figure_at: a point of it and its direction,
- * along the figure's axes. */
+/* The line about which a coordinate turns, after ambulo__figure_at: a point of it and its
+ * direction, along the figure's axes. */
 void ambulo__figure_axis(const ambulo__figure *figure, int coordinate, double point[3],
                          double direction[3]);
 

@@ -20,25 +20,31 @@ static void solve(double m[3][3], double x[3]) {
   }
 }
 
-/* one step; its length, rad */
+/* One step; its length, rad. With the pull c toward the start pose q0 the least of |e - J dq|^2 + c |q
+ * + dq - q0|^2 is J^T (J J^T + c 1)^-1 (e + J (q - q0)) - (q - q0). */
 static double step(const ambulo__figure *figure, int segment, const double error[3], double *q) {
-  static const double damping = 1e-4;
-  int count = figure->map.count[segment];
+  static const double damping = 1e-4, pull = 3e-3;
+  int count = figure->map.count[segment], pulled = segment >= AMBULO__UPPER_ARM;
   double axis[AMBULO__SEGMENT_COORDINATES][3], m[3][3] = {{0.0}}, x[3], length = 0.0;
-  for (int g = 0; g < count; g++) {
-    double point[3];
-    ambulo__figure_axis(figure, figure->map.coordinate[segment][g], point, axis[g]);
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) m[i][j] += axis[g][i] * axis[g][j];
-  }
   for (int i = 0; i < 3; i++) {
-    m[i][i] += damping;
+    m[i][i] = pulled ? pull : damping;
     x[i] = error[i];
+  }
+  for (int g = 0; g < count; g++) {
+    int c = figure->map.coordinate[segment][g];
+    double point[3], away = pulled ? q[c] - figure->model->coordinates[c].default_value : 0.0;
+    ambulo__figure_axis(figure, c, point, axis[g]);
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) m[i][j] += axis[g][i] * axis[g][j];
+      x[i] += axis[g][i] * away;
+    }
   }
   solve(m, x);
   for (int g = 0; g < count; g++) {
-    double change = ambulo__dot(axis[g], x);
-    q[figure->map.coordinate[segment][g]] += change;
+    int c = figure->map.coordinate[segment][g];
+    double away = pulled ? q[c] - figure->model->coordinates[c].default_value : 0.0;
+    double change = ambulo__dot(axis[g], x) - away;
+    q[c] += change;
     length += fabs(change);
   }
   return length;

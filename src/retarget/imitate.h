@@ -7,7 +7,9 @@
  *
  * repeated until it is small. A group of three hinges gets there; one of fewer as near as it can.
  * Limits are not looked at: what a joint cannot do shall be seen. Arms follow the torso as it is,
- * all else the goal in space, so that a body without a waist still leans like the person.
+ * all else the goal in space, so that a body without a waist still leans like the person. Arms are
+ * also pulled a little toward the start pose: hanging arms of some robots turn about one line by two
+ * joints, which would spin against each other.
  */
 #ifndef AMBULO_RETARGET_IMITATE_H
 #define AMBULO_RETARGET_IMITATE_H

@@ -54,8 +54,8 @@ static ambulo_status read_all(job *j) {
     ambulo__yaml_close(root);
   }
   if (!status)
-    status = ambulo_model_load(j->model_file, NULL, &j->allocator, j->diagnostics,
-                               &j->target_model);
+    status =
+        ambulo_model_load(j->model_file, NULL, &j->allocator, j->diagnostics, &j->target_model);
   if (!status)
     status = ambulo__given_read(j->motion, &j->options, &j->allocator, j->diagnostics, &j->given);
   if (!status) status = make_figure(j, j->given.body, "source", &j->person);
@@ -136,8 +136,8 @@ static ambulo_status run(job *j, const char *directory) {
                                               &j->allocator, j->diagnostics, &folder);
   if (!status) status = read_all(j);
   if (!status)
-    status = ambulo__retargeting_make(&j->given, &j->person, &j->target, j->options.keep_time,
-                               j->options.speed, j->diagnostics, &j->plan);
+    status = ambulo__retargeting_make(&j->given, &j->person, &j->target, j->options.times,
+                                      j->options.speed, j->diagnostics, &j->plan);
   if (!status) status = fill(j, folder);
   if (!status) return ambulo__folder_commit(folder, j->diagnostics);
   ambulo__folder_abort(folder, j->diagnostics);

@@ -12,10 +12,11 @@ typedef struct making {
   ambulo__figure *person, *target;
   ambulo__retargeting *plan;
   ambulo__posture *posture; /* [rows], of the person */
-  ambulo__posture *tiled;   /* [tiled_rows]: of a motion that repeats three periods, else the same */
+  ambulo__posture *tiled; /* [tiled_rows]: of a motion that repeats three periods, else the same */
   double *tiled_time;
   int rows, tiled_rows, before; /* rows before the own period */
   double travel, rise;          /* of the person */
+  ambulo_times times;
 } making;
 
 /* ------------------------------------------------------------- the person's motion */
@@ -52,7 +53,8 @@ static double direction_of(const making *t) {
   double first = ambulo__heading_of(&a->turn[AMBULO__PELVIS]);
   double change = remainder(ambulo__heading_of(&b->turn[AMBULO__PELVIS]) - first, 2.0 * acos(-1.0));
   double away = remainder(atan2(y, x) - first, 2.0 * acos(-1.0));
-  int walks = hypot(x, y) > far * t->person->leg && fabs(change) < turned && fabs(away) < 2.0 * turned;
+  int walks =
+      hypot(x, y) > far * t->person->leg && fabs(change) < turned && fabs(away) < 2.0 * turned;
   return walks ? atan2(y, x) : first;
 }
 
@@ -69,8 +71,7 @@ static void align(making *t) {
       for (int j = 0; j < 2; j++) points[i][j] -= start[j];
       turn_about_up(-angle, points[i]);
     }
-    for (int s = 0; s < AMBULO__SEGMENTS; s++)
-      p->turn[s] = ambulo__rigid_times(&back, &p->turn[s]);
+    for (int s = 0; s < AMBULO__SEGMENTS; s++) p->turn[s] = ambulo__rigid_times(&back, &p->turn[s]);
   }
 }
 
@@ -161,6 +162,28 @@ static void carry(const making *t, int side, double facing, double floor, double
   ankle[2] = l * (ankle[2] - floor);
 }
 
+/* 1: some foot stands at this time */
+static int stands(const ambulo__standings *footing, double time) {
+  for (int i = 0; i < footing->count; i++) {
+    const ambulo__standing *s = &footing->stance[i];
+    if (time >= s->phase[0].from - AMBULO__INSTANT &&
+        time <= s->phase[s->phases - 1].to + AMBULO__INSTANT)
+      return 1;
+  }
+  return 0;
+}
+
+/* times of the motion without a foot on the ground */
+static int count_flights(const making *t) {
+  int flights = 0, before = 1;
+  for (int k = 0; k < t->rows; k++) {
+    int now = stands(&t->plan->footing, t->given->time[k]);
+    flights += before && !now;
+    before = now;
+  }
+  return flights;
+}
+
 /* what is of the own period, in its time */
 static void clip(making *t, ambulo__standing *stance, double floor) {
   double factor = t->plan->time_ratio, end = t->given->time[t->rows - 1];
@@ -178,10 +201,12 @@ static void clip(making *t, ambulo__standing *stance, double floor) {
 
 static ambulo_status find_footholds(making *t, ambulo_diagnostics *diagnostics, double *floor) {
   ambulo__standings *footing = &t->plan->footing;
-  ambulo_status status =
-      ambulo__standings_find(t->person, t->tiled_time, t->tiled, t->tiled_rows,
-                           &t->plan->allocator, diagnostics, footing);
+  ambulo_status status = ambulo__standings_find(t->person, t->tiled_time, t->tiled, t->tiled_rows,
+                                                &t->plan->allocator, diagnostics, footing);
   if (status) return status;
+  t->plan->flights = count_flights(t);
+  if (t->times == AMBULO_TIMES_KEPT || (t->times == AMBULO_TIMES_NOT_SET && !t->plan->flights))
+    t->plan->time_ratio = 1.0;
   double earliest = INFINITY;
   for (int i = 0; i < footing->count; i++) {
     const ambulo__standing *s = &footing->stance[i];
@@ -196,26 +221,6 @@ static ambulo_status find_footholds(making *t, ambulo_diagnostics *diagnostics, 
   }
   footing->count = kept;
   return AMBULO_OK;
-}
-
-/* 1: some foot stands at this time */
-static int stands(const ambulo__retargeting *plan, double time) {
-  for (int i = 0; i < plan->footing.count; i++) {
-    const ambulo__standing *s = &plan->footing.stance[i];
-    if (time >= s->phase[0].from - AMBULO__INSTANT &&
-        time <= s->phase[s->phases - 1].to + AMBULO__INSTANT)
-      return 1;
-  }
-  return 0;
-}
-
-static void count_flights(ambulo__retargeting *plan) {
-  int before = 1;
-  for (int k = 0; k < plan->rows; k++) {
-    int now = stands(plan, plan->time[k]);
-    plan->flights += before && !now;
-    before = now;
-  }
 }
 
 /* ----------------------------------------------------------------------- reference */
@@ -297,14 +302,12 @@ static void join_ends(making *t) {
 }
 
 ambulo_status ambulo__retargeting_make(const ambulo__given *given, ambulo__figure *person,
-                                ambulo__figure *target, int keep_time, double speed,
-                                ambulo_diagnostics *diagnostics, ambulo__retargeting *plan) {
+                                       ambulo__figure *target, ambulo_times times, double speed,
+                                       ambulo_diagnostics *diagnostics, ambulo__retargeting *plan) {
   double ratio = target->leg / person->leg, floor = 0.0;
-  ambulo__retargeting p = {.allocator = given->allocator,
-                    .target = target,
-                    .ratio = ratio,
-                    .time_ratio = keep_time ? 1.0 : sqrt(ratio)};
-  making t = {.given = given, .person = person, .target = target, .plan = &p};
+  ambulo__retargeting p = {
+      .allocator = given->allocator, .target = target, .ratio = ratio, .time_ratio = sqrt(ratio)};
+  making t = {.given = given, .person = person, .target = target, .plan = &p, .times = times};
   ambulo_status status = read_person(&t, speed);
   if (!status) status = find_footholds(&t, diagnostics, &floor);
   if (!status) status = make_reference(&t, floor);
@@ -314,7 +317,6 @@ ambulo_status ambulo__retargeting_make(const ambulo__given *given, ambulo__figur
     close_period(&t);
     join_ends(&t);
   }
-  if (!status) count_flights(&p);
   ambulo__free(&p.allocator, t.posture);
   ambulo__free(&p.allocator, t.tiled);
   ambulo__free(&p.allocator, t.tiled_time);

@@ -67,7 +67,8 @@ static int is_followed(const ambulo__figure *figure, int coordinate) {
   return 0;
 }
 
-static void print_time(const ambulo__retargeting *plan, double duration, ambulo__text_buffer *text) {
+static void print_time(const ambulo__retargeting *plan, double duration,
+                       ambulo__text_buffer *text) {
   /* per second */
   static const double nodes = 100.0, knots = 24.0;
   double size = sqrt(plan->target->leg / 0.9); /* small bodies move faster */
@@ -101,15 +102,16 @@ static void print_pressure(const ambulo__retargeting *plan, ambulo__text_buffer 
 
 static void print_rows(const ambulo__retargeting *plan, ambulo__text_buffer *text) {
   print_pressure(plan, text);
-  ambulo__text_append(text, "constraints:\n"
-                            "  contact_tolerance: 0.0005\n"
-                            "  orientation_tolerance: 0.004\n"
-                            "  clearance: {height: 0.015, tip_from: 0.2, ceiling: 1, turn: 0.9,\n"
-                            "    outward: 0.5, inward: 0.5}\n"
-                            "  joint_limits: nodes\n"
-                            "  speed_limits: true\n"
-                            "  torque_limits: true\n\n"
-                            "solver: {feasibility_tolerance: 1e-5, optimality_tolerance: 0.01}\n\n");
+  ambulo__text_append(text,
+                      "constraints:\n"
+                      "  contact_tolerance: 0.0005\n"
+                      "  orientation_tolerance: 0.004\n"
+                      "  clearance: {height: 0.015, tip_from: 0.2, ceiling: 1, turn: 0.9,\n"
+                      "    outward: 0.5, inward: 0.5}\n"
+                      "  joint_limits: nodes\n"
+                      "  speed_limits: true\n"
+                      "  torque_limits: true\n\n"
+                      "solver: {feasibility_tolerance: 1e-5, optimality_tolerance: 0.01}\n\n");
   if (plan->repeats) {
     line(text, "ends: {kind: periodic, order: 2, travel: ", rounded(plan->travel, 1e-4), "");
     if (plan->rise != 0.0) line(text, ", rise: ", rounded(plan->rise, 1e-4), "");
@@ -138,18 +140,18 @@ static void print_rest(const ambulo__retargeting *plan, ambulo__text_buffer *tex
   int count = 0;
   for (int c = 0; c < model->coordinate_count; c++) {
     if (is_followed(plan->target, c)) continue;
-    ambulo__text_append(text, count++ ? ", " : "  - {term: posture, name: rest, weight: 20, scale: {");
+    ambulo__text_append(text,
+                        count++ ? ", " : "  - {term: posture, name: rest, weight: 20, scale: {");
     ambulo__text_append_format(text, "%s: 1", model->coordinates[c].name);
   }
   int first = 1;
   for (int c = 0; count && c < model->coordinate_count; c++) {
     double value = model->coordinates[c].default_value;
     if (is_followed(plan->target, c) || value == 0.0) continue;
-    ambulo__text_append_format(text, first ? "}, angles: {%s: " : ", %s: ",
-                               model->coordinates[c].name);
-    ambulo__text_append_number(text, model->coordinates[c].type == AMBULO_REVOLUTE
-                                         ? value * 180.0 / acos(-1.0)
-                                         : value);
+    ambulo__text_append_format(text,
+                               first ? "}, angles: {%s: " : ", %s: ", model->coordinates[c].name);
+    ambulo__text_append_number(
+        text, model->coordinates[c].type == AMBULO_REVOLUTE ? value * 180.0 / acos(-1.0) : value);
     first = 0;
   }
   if (count) ambulo__text_append(text, "}}\n");
@@ -168,8 +170,8 @@ static void print_objective(const ambulo__retargeting *plan, ambulo__text_buffer
                             "  - {term: acceleration, weight: 1e-6}\n");
 }
 
-void ambulo__retargeting_problem(const ambulo__retargeting *plan, const char *motion, const char *model_file,
-                          ambulo__text_buffer *text) {
+void ambulo__retargeting_problem(const ambulo__retargeting *plan, const char *motion,
+                                 const char *model_file, ambulo__text_buffer *text) {
   const char *slash = strrchr(motion, '/');
   double duration = rounded(plan->time[plan->rows - 1], 1e-4);
   ambulo__text_append(text, "# ambulo retarget: the motion of ");
@@ -177,8 +179,10 @@ void ambulo__retargeting_problem(const ambulo__retargeting *plan, const char *mo
   ambulo__text_append_format(text, "\n# onto model %s.\n", plan->target->model->name);
   line(text, "#\n# Lengths are those of the person times ", rounded(plan->ratio, 1e-4), ", times ");
   line(text, "times ", rounded(plan->time_ratio, 1e-4), ".\n");
-  ambulo__text_append_format(text, "# Contacts were found in the motion; times without a foot on the "
-                                   "ground: %d.\n", plan->flights);
+  ambulo__text_append_format(text,
+                             "# Contacts were found in the motion; times without a foot on the "
+                             "ground: %d.\n",
+                             plan->flights);
   ambulo__text_append(text, "\nambulo: 1\nkind: problem\nname: retarget\nmodel: ");
   ambulo__text_append_format(text, "%s\nangles: degrees\n\n", model_file);
   print_time(plan, duration, text);

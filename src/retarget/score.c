@@ -123,8 +123,10 @@ static double worst_of(const ambulo_result *result, const char *const *families,
 }
 
 static void say_feet(const score *s, const ambulo_result *result) {
-  static const char *const slips[] = {"slip", "foot_strike", "contact"},
-                           *const sinks[] = {"ground_penetration", "contact", "clearance"};
+  static const char *const slips[] = {"slip", "foot_strike", "contact"}, *const sinks[] = {
+                                                                             "ground_penetration",
+                                                                             "contact",
+                                                                             "clearance"};
   /* within the tolerance of contacts a foot may be anywhere */
   double play = 1000.0 * fmax(0.0, s->problem->definition.contact_tolerance);
   ambulo__text_append_format(s->text,
@@ -143,8 +145,8 @@ ambulo_status ambulo_retarget_report(const ambulo_problem *problem, const ambulo
   ambulo_workspace *workspace = NULL;
   ambulo__text_buffer out;
   ambulo__text_init(&out, &own);
-  ambulo_status status = values ? ambulo_workspace_create(problem, allocator, &workspace)
-                                : AMBULO_E_MEMORY;
+  ambulo_status status =
+      values ? ambulo_workspace_create(problem, allocator, &workspace) : AMBULO_E_MEMORY;
   if (!status) {
     ambulo_motion motion = ambulo_motion_default();
     motion.q = values;

@@ -10,13 +10,13 @@
 enum { MOST_COORDINATES = 4096 }; /* as many as a model has links */
 
 static const char *const names[AMBULO__SEGMENTS] = {
-    "pelvis",  "torso",  "thigh_r",     "thigh_l",     "shank_r",   "shank_l",
-    "foot_r",  "foot_l", "upper_arm_r", "upper_arm_l", "forearm_r", "forearm_l",
+    "pelvis", "torso",  "thigh_r",     "thigh_l",     "shank_r",   "shank_l",
+    "foot_r", "foot_l", "upper_arm_r", "upper_arm_l", "forearm_r", "forearm_l",
 };
 
 static const int parents[AMBULO__SEGMENTS] = {
-    -1, AMBULO__PELVIS, AMBULO__PELVIS, AMBULO__PELVIS, 2, 3, 4, 5, AMBULO__TORSO, AMBULO__TORSO,
-    8,  9};
+    -1, AMBULO__PELVIS, AMBULO__PELVIS, AMBULO__PELVIS, 2, 3, 4, 5, AMBULO__TORSO, AMBULO__TORSO, 8,
+    9};
 
 int ambulo__segment_above(int segment) {
   return parents[segment];

@@ -21,7 +21,7 @@ void ambulo__joint_angles(const double r[3][3], double angles[3]) {
   }
 }
 
-int ambulo__joint_coordinate(const ambulo__joints *joints, int joint) {
+int ambulo__joint_coordinate(const ambulo__skeleton_joints *joints, int joint) {
   int first = 3;
   for (int i = 0; i < joint; i++) first += joints->joint[i].is_end ? 0 : 3;
   return first;
@@ -39,23 +39,25 @@ static void vector(ambulo__text_buffer *text, const double v[3]) {
 static void print_link(ambulo__text_buffer *text, const char *joint, const char *suffix,
                        const char *parent, const char *parent_suffix, const char *kind,
                        const double offset[3], const char *axis) {
-  ambulo__text_append_format(text, "  - {name: %s%s, parent: %s%s, joint: %s, origin: {xyz: ",
-                             joint, suffix, parent, parent_suffix, kind);
+  ambulo__text_append_format(text,
+                             "  - {name: %s%s, parent: %s%s, joint: %s, origin: {xyz: ", joint,
+                             suffix, parent, parent_suffix, kind);
   vector(text, offset);
   ambulo__text_append_format(text, "}, axis: %s", axis);
 }
 
-static void print_ball(ambulo__text_buffer *text, const ambulo__joint *joint, const char *parent,
+static void print_ball(ambulo__text_buffer *text, const ambulo__skeleton_joint *joint, const char *parent,
                        const char *parent_suffix, const double offset[3]) {
   static const double here[3] = {0.0};
   print_link(text, joint->name, "_x", parent, parent_suffix, "revolute", offset, "[1, 0, 0]}\n");
   print_link(text, joint->name, "_y", joint->name, "_x", "revolute", here, "[0, 1, 0]}\n");
   print_link(text, joint->name, "_z", joint->name, "_y", "revolute", here, "[0, 0, 1]");
-  ambulo__text_append(text, ",\n     body: {mass: 1, com: [0, 0, 0], gyration: [0.1, 0.1, 0.1]}}\n");
+  ambulo__text_append(text,
+                      ",\n     body: {mass: 1, com: [0, 0, 0], gyration: [0.1, 0.1, 0.1]}}\n");
 }
 
 /* the joints below one, and what is deepest and furthest ahead of them */
-static void look_below(const ambulo__joints *joints, int joint, double *deepest, double *ahead) {
+static void look_below(const ambulo__skeleton_joints *joints, int joint, double *deepest, double *ahead) {
   double at[AMBULO__MOST_JOINTS][3];
   unsigned char below[AMBULO__MOST_JOINTS] = {0};
   memset(at[joint], 0, sizeof at[joint]);
@@ -76,7 +78,7 @@ static const char *side_word(int segment) {
 }
 
 /* points of a foot's sole: heels as far behind the ankle as a third of the way to the front */
-static void print_points(ambulo__text_buffer *text, const ambulo__joints *joints, int joint,
+static void print_points(ambulo__text_buffer *text, const ambulo__skeleton_joints *joints, int joint,
                          int segment) {
   static const double half_width = 0.03, sole = 0.015;
   double deepest, ahead;
@@ -97,20 +99,22 @@ static void print_points(ambulo__text_buffer *text, const ambulo__joints *joints
       double at[3] = {end ? forward[0] : -0.3 * forward[0], forward[1],
                       end ? forward[2] : -0.3 * forward[2]};
       at[0] += corner == 0 ? 0.0 : corner == 1 ? half_width : -half_width;
-      ambulo__text_append_format(text, "  - {name: %s_%s%s, link: %s_z, position: ",
-                                 side_word(segment), ends[end], corners[corner],
-                                 joints->joint[joint].name);
+      ambulo__text_append_format(text,
+                                 "  - {name: %s_%s%s, link: %s_z, position: ", side_word(segment),
+                                 ends[end], corners[corner], joints->joint[joint].name);
       vector(text, at);
       ambulo__text_append(text, "}\n");
     }
   }
 }
 
-static void print_model(const ambulo__joints *joints, const char *name, int foot[2],
+static void print_model(const ambulo__skeleton_joints *joints, const char *name, int foot[2],
                         ambulo__text_buffer *text) {
   static const double here[3] = {0.0};
-  static const char *const slides[] = {"root_tx", "root_ty", "root_tz"},
-                           *const axes[] = {"[1, 0, 0]}\n", "[0, 1, 0]}\n", "[0, 0, 1]}\n"};
+  static const char *const slides[] = {"root_tx", "root_ty", "root_tz"}, *const axes[] = {
+                                                                             "[1, 0, 0]}\n",
+                                                                             "[0, 1, 0]}\n",
+                                                                             "[0, 0, 1]}\n"};
   ambulo__text_append_format(text,
                              "# ambulo retarget: the skeleton of the motion; masses mean nothing\n"
                              "ambulo: 1\nkind: model\nname: %s\nunits: {angle: radians}\n"
@@ -119,7 +123,7 @@ static void print_model(const ambulo__joints *joints, const char *name, int foot
   for (int i = 0; i < 3; i++)
     print_link(text, slides[i], "", i ? slides[i - 1] : "none", "", "prismatic", here, axes[i]);
   for (int i = 0; i < joints->count; i++) {
-    const ambulo__joint *j = &joints->joint[i];
+    const ambulo__skeleton_joint *j = &joints->joint[i];
     if (j->is_end) continue;
     const char *parent = j->parent < 0 ? slides[2] : joints->joint[j->parent].name;
     print_ball(text, j, parent, j->parent < 0 ? "" : "_z", j->parent < 0 ? here : j->offset);
@@ -138,7 +142,7 @@ static void print_model(const ambulo__joints *joints, const char *name, int foot
   }
 }
 
-ambulo_status ambulo__joints_model(const ambulo__joints *joints, const char *name,
+ambulo_status ambulo__joints_model(const ambulo__skeleton_joints *joints, const char *name,
                                    ambulo_diagnostics *diagnostics, ambulo__given *given) {
   int foot[2] = {-1, -1};
   for (int i = joints->count - 1; i > 0; i--) {
@@ -152,9 +156,9 @@ ambulo_status ambulo__joints_model(const ambulo__joints *joints, const char *nam
   print_model(joints, name, foot, &given->text);
   ambulo_status status = ambulo__text_status(&given->text);
   if (!status)
-    status = ambulo_model_load_text(ambulo__text_data(&given->text), given->text.length,
-                                    "source.yaml", NULL, &given->allocator, diagnostics,
-                                    &given->own);
+    status =
+        ambulo_model_load_text(ambulo__text_data(&given->text), given->text.length, "source.yaml",
+                               NULL, &given->allocator, diagnostics, &given->own);
   given->body = given->own;
   return status;
 }

@@ -10,24 +10,24 @@
 
 enum { AMBULO__MOST_JOINTS = 256, AMBULO__JOINT_NAME = 48 };
 
-typedef struct ambulo__joint {
+typedef struct ambulo__skeleton_joint {
   char name[AMBULO__JOINT_NAME];
   int parent;       /* -1: the root; before its children */
   double offset[3]; /* from the parent's at rest, m */
   int is_end;       /* 1: nothing turns there */
-} ambulo__joint;
+} ambulo__skeleton_joint;
 
-typedef struct ambulo__joints {
-  ambulo__joint joint[AMBULO__MOST_JOINTS];
+typedef struct ambulo__skeleton_joints {
+  ambulo__skeleton_joint joint[AMBULO__MOST_JOINTS];
   int count;
-} ambulo__joints;
+} ambulo__skeleton_joints;
 
 /* Makes the model, given->own, and its text. Errors: those of ambulo_model_load_text. */
-ambulo_status ambulo__joints_model(const ambulo__joints *joints, const char *name,
+ambulo_status ambulo__joints_model(const ambulo__skeleton_joints *joints, const char *name,
                                    ambulo_diagnostics *diagnostics, ambulo__given *given);
-/* Coordinates of a joint from its rotation: q + first, in the order of the joints that turn. */
+/* The three angles of a joint with this rotation. */
 void ambulo__joint_angles(const double r[3][3], double angles[3]);
 /* Index of the first coordinate of a joint in the model. */
-int ambulo__joint_coordinate(const ambulo__joints *joints, int joint);
+int ambulo__joint_coordinate(const ambulo__skeleton_joints *joints, int joint);
 
 #endif

@@ -16,8 +16,8 @@ void ambulo__given_free(ambulo__given *given) {
 ambulo_status ambulo__given_rows(ambulo__given *given, int rows) {
   given->rows = rows;
   given->time = ambulo__alloc(&given->allocator, (size_t)rows, sizeof *given->time);
-  given->q = ambulo__alloc(&given->allocator,
-                           (size_t)rows * (size_t)given->body->coordinate_count, sizeof *given->q);
+  given->q = ambulo__alloc(&given->allocator, (size_t)rows * (size_t)given->body->coordinate_count,
+                           sizeof *given->q);
   return given->time && given->q ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
@@ -29,8 +29,8 @@ static ambulo_status take_coordinate(const ambulo__motion *table, const char *pa
                                      int *found) {
   const ambulo_coordinate *about = &given->body->coordinates[c];
   int column = -1, d = given->body->coordinate_count;
-  ambulo_status status = ambulo__motion_find(table, path, about->name, AMBULO__ORDER_VALUE,
-                                             diagnostics, &column);
+  ambulo_status status =
+      ambulo__motion_find(table, path, about->name, AMBULO__ORDER_VALUE, diagnostics, &column);
   if (status || column < 0) return status;
   double unit = table->in_degrees && about->type == AMBULO_REVOLUTE ? acos(-1.0) / 180.0 : 1.0;
   for (int k = 0; k < table->rows; k++)
@@ -42,12 +42,11 @@ static ambulo_status take_coordinate(const ambulo__motion *table, const char *pa
 }
 
 ambulo_status ambulo__given_table(const char *path, ambulo_diagnostics *diagnostics,
-                                ambulo__given *given) {
+                                  ambulo__given *given) {
   ambulo__motion *table = NULL;
   int found = 0;
   given->unplaced = 1;
-  ambulo_status status =
-      ambulo__motion_read(path, 1, &given->allocator, diagnostics, &table);
+  ambulo_status status = ambulo__motion_read(path, 1, &given->allocator, diagnostics, &table);
   if (!status) status = ambulo__given_rows(given, table->rows);
   for (int k = 0; !status && k < table->rows; k++) given->time[k] = table->time[k];
   for (int c = 0; !status && c < given->body->coordinate_count; c++)

@@ -16,7 +16,7 @@ typedef struct ambulo__given {
   const ambulo_model *body;
   ambulo_model *own;        /* the same, where it came with the file; NULL */
   ambulo__text_buffer text; /* its model file; empty without */
-  int unplaced; /* 1: nothing says where the body is, only how its joints turn */
+  int unplaced;             /* 1: nothing says where the body is, only how its joints turn */
   int rows;
   double *time; /* [rows], s from 0 */
   double *q;    /* [rows][coordinates], rad and m */

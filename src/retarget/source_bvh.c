@@ -2,8 +2,9 @@
  * numbers for each frame.
  *
  * A joint's rotation is the product of those of its channels in their order, its angles in degrees.
- * The format has no unit of length: the skeleton is made as large as its legs are those of an adult,
- * unless they are that in metres or centimetres. y is up, and the skeleton at rest faces along z.
+ * The format has no unit of length: the skeleton is made as large as its legs are those of an
+ * adult, unless they are that in metres or centimetres. y is up, and the skeleton at rest faces
+ * along z.
  */
 #include "retarget/source.h"
 
@@ -24,7 +25,7 @@ typedef struct bvh {
   const char *path, *at; /* what is left to read */
   int line;
   ambulo_diagnostics *diagnostics;
-  ambulo__joints joints;
+  ambulo__skeleton_joints joints;
   int channels[AMBULO__MOST_JOINTS];
   char channel[AMBULO__MOST_JOINTS][MOST_CHANNELS]; /* "XYZ": places, "xyz": angles */
   int channel_count;
@@ -102,7 +103,7 @@ static ambulo_status open_joint(bvh *b, int parent, int is_end, int *opened) {
     return ambulo__error(b->diagnostics, AMBULO_E_LIMIT, (ambulo__place){.file = b->path}, NULL,
                          "more than %d joints", AMBULO__MOST_JOINTS);
   *opened = b->joints.count++;
-  ambulo__joint *j = &b->joints.joint[*opened];
+  ambulo__skeleton_joint *j = &b->joints.joint[*opened];
   j->parent = parent;
   j->is_end = is_end;
   take_name(word, length, j->name);
@@ -195,9 +196,9 @@ ambulo_status ambulo__given_bvh(const char *path, ambulo_diagnostics *diagnostic
   char *text = NULL;
   size_t length = 0;
   bvh *b = ambulo__alloc(&given->allocator, 1, sizeof *b);
-  ambulo_status status = b ? ambulo__read_file(path, limit, &given->allocator, diagnostics, &text,
-                                               &length)
-                           : AMBULO_E_MEMORY;
+  ambulo_status status =
+      b ? ambulo__read_file(path, limit, &given->allocator, diagnostics, &text, &length)
+        : AMBULO_E_MEMORY;
   if (!status) {
     b->path = path;
     b->at = text;

@@ -5,8 +5,8 @@
  *   mocap_framerate       (or mocap_frame_rate), per second
  *
  * The first 22 joints are the body's in all of them; hands are left out. The skeleton is that of an
- * average adult: places of joints depend on the shape (betas), which is not read. At rest SMPL has y
- * up and faces along z; what is z up becomes y up by a turn about x.
+ * average adult: places of joints depend on the shape (betas), which is not read. At rest SMPL has
+ * y up and faces along z; what is z up becomes y up by a turn about x.
  */
 #include "retarget/source.h"
 
@@ -21,7 +21,7 @@
 
 enum { JOINTS = 22 };
 
-static const ambulo__joint smpl[JOINTS] = {
+static const ambulo__skeleton_joint smpl[JOINTS] = {
     {"pelvis", -1, {0, 0, 0}, 0},
     {"left_hip", 0, {0.059, -0.082, -0.018}, 0},
     {"right_hip", 0, {-0.059, -0.082, -0.018}, 0},
@@ -91,7 +91,8 @@ static ambulo_status read_arrays(amass *a, const ambulo_allocator *allocator,
   return AMBULO_OK;
 }
 
-static void take_frame(const amass *a, size_t frame, double *q) {
+static void take_frame(const amass *a, const ambulo__skeleton_joints *joints, size_t frame,
+                       double *q) {
   static const double axis[3] = {1.0, 0.0, 0.0};
   const double *pose = a->poses.values + frame * a->poses.columns;
   const double *trans = a->trans.values + 3 * frame;
@@ -100,14 +101,14 @@ static void take_frame(const amass *a, size_t frame, double *q) {
   for (int j = 0; j < JOINTS; j++) {
     ambulo__rigid turn = ambulo__turn_of_vector(pose + 3 * j);
     if (j == 0) turn = ambulo__rigid_times(&upright, &turn);
-    ambulo__joint_angles((const double(*)[3])turn.r, q + 3 + 3 * j);
+    ambulo__joint_angles((const double(*)[3])turn.r, q + ambulo__joint_coordinate(joints, j));
   }
 }
 
 ambulo_status ambulo__given_smpl(const char *path, ambulo_diagnostics *diagnostics,
                                  ambulo__given *given) {
   amass a = {.path = path};
-  ambulo__joints *joints = ambulo__alloc(&given->allocator, 1, sizeof *joints);
+  ambulo__skeleton_joints *joints = ambulo__alloc(&given->allocator, 1, sizeof *joints);
   ambulo_status status = joints ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) {
     memcpy(joints->joint, smpl, sizeof smpl);
@@ -118,7 +119,7 @@ ambulo_status ambulo__given_smpl(const char *path, ambulo_diagnostics *diagnosti
   if (!status) status = ambulo__given_rows(given, (int)a.poses.rows);
   for (size_t k = 0; !status && k < a.poses.rows; k++) {
     given->time[k] = (double)k / a.rate.values[0];
-    take_frame(&a, k, given->q + k * (size_t)given->body->coordinate_count);
+    take_frame(&a, joints, k, given->q + k * (size_t)given->body->coordinate_count);
   }
   ambulo__free(&given->allocator, joints);
   ambulo__free(&given->allocator, a.bytes);

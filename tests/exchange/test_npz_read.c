@@ -39,8 +39,8 @@ static void comes_back(void **state) {
   make(&text, NULL);
   check(&text, "other", 2, 1);
   check(&text, "a", 2, 3);
-  assert_int_equal(ambulo__npz_read(ambulo__text_data(&text), text.length, "b", "f.npz", NULL,
-                                    NULL, &array, &found),
+  assert_int_equal(ambulo__npz_read(ambulo__text_data(&text), text.length, "b", "f.npz", NULL, NULL,
+                                    &array, &found),
                    AMBULO_OK);
   assert_int_equal(found, 0);
   assert_null(array.values);
@@ -164,8 +164,8 @@ static void damage(void **state) {
     ambulo__npz_array array = {.values = NULL};
     int found = 0;
     memcpy(copy, ambulo__text_data(&text), length);
-    assert_int_not_equal(
-        ambulo__npz_read(copy, length, "a", "f.npz", NULL, NULL, &array, &found), AMBULO_OK);
+    assert_int_not_equal(ambulo__npz_read(copy, length, "a", "f.npz", NULL, NULL, &array, &found),
+                         AMBULO_OK);
   }
   for (size_t at = 0; at < text.length; at++) {
     ambulo__npz_array array = {.values = NULL};

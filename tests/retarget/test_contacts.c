@@ -7,7 +7,8 @@
 enum { ROWS = 201 };
 static const double period = 1.0, stance = 0.6, step = 1.2; /* s, m */
 
-/* At rest, then forward on an arch: the heel leaves `lag` before and strikes `lag` before the ball */
+/* At rest, then forward on an arch: the heel leaves `lag` before and strikes `lag` before the ball
+ */
 static void point(double time, double shift, double lag, double out[3]) {
   double u = (time + shift + lag) / period, turns = floor(u), share = u - turns;
   double swing = share < stance ? 0.0 : (share - stance) / (1.0 - stance);
@@ -40,8 +41,8 @@ static void finds_walk(void **state) {
   static ambulo__posture posture[ROWS];
   ambulo__standings found;
   walk_of(&p.figure, time, posture);
-  assert_int_equal(
-      ambulo__standings_find(&p.figure, time, posture, ROWS, NULL, NULL, &found), AMBULO_OK);
+  assert_int_equal(ambulo__standings_find(&p.figure, time, posture, ROWS, NULL, NULL, &found),
+                   AMBULO_OK);
   int whole = 0;
   for (int i = 0; i < found.count; i++) {
     const ambulo__standing *s = &found.stance[i];
@@ -79,8 +80,8 @@ static void finds_floors(void **state) {
       heel[2] += 0.3 * (heel[0] - p.figure.heel[side][0]) / step;
       toe[2] += 0.3 * (toe[0] - p.figure.toe[side][0]) / step;
     }
-  assert_int_equal(
-      ambulo__standings_find(&p.figure, time, posture, ROWS, NULL, NULL, &found), AMBULO_OK);
+  assert_int_equal(ambulo__standings_find(&p.figure, time, posture, ROWS, NULL, NULL, &found),
+                   AMBULO_OK);
   for (int i = 0; i < found.count; i++)
     assert_close(found.stance[i].ankle[2], 0.3 * floor(found.stance[i].ankle[0] / step + 0.5),
                  0.02);
@@ -101,9 +102,8 @@ static void flies(void **state) {
         posture[k].heel[side][i] += 3.0 * time[k];
         posture[k].toe[side][i] += 3.0 * time[k];
       }
-  assert_int_equal(
-      ambulo__standings_find(&p.figure, time, posture, ROWS, NULL, NULL, &found),
-      AMBULO_E_SCHEMA);
+  assert_int_equal(ambulo__standings_find(&p.figure, time, posture, ROWS, NULL, NULL, &found),
+                   AMBULO_E_SCHEMA);
   person_close(&p);
 }
 
@@ -128,8 +128,8 @@ static void memory_may_run_out_anywhere(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(finds_walk), cmocka_unit_test(finds_floors), cmocka_unit_test(flies),
-      cmocka_unit_test(memory_may_run_out_anywhere)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(finds_walk), cmocka_unit_test(finds_floors),
+                                     cmocka_unit_test(flies),
+                                     cmocka_unit_test(memory_may_run_out_anywhere)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

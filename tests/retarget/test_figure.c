@@ -25,8 +25,7 @@ static void stands_upright(void **state) {
   ambulo__posture posture;
   ambulo__rigid same = ambulo__rigid_identity();
   ambulo__figure_at(&p.figure, q, &posture);
-  for (int s = 0; s < AMBULO__SEGMENTS; s++)
-    assert_true(apart(&posture.turn[s], &same) < 0.2);
+  for (int s = 0; s < AMBULO__SEGMENTS; s++) assert_true(apart(&posture.turn[s], &same) < 0.2);
   for (int side = 0; side < 2; side++) {
     double hip = posture.ankle[side][2] - posture.heel[side][2];
     assert_true(hip > 0.05 && hip < 0.12);
@@ -50,8 +49,7 @@ static void soles_are_where_points_are(void **state) {
     for (int c = 0; c < p.model->coordinate_count; c++) q[c] = 0.5 * even(&seed);
     ambulo__figure_at(&p.figure, q, &posture);
     for (int side = 0; side < 2; side++) {
-      const ambulo_point *heel =
-          &p.model->points[p.model->feet[p.figure.foot[side]].heel_center];
+      const ambulo_point *heel = &p.model->points[p.model->feet[p.figure.foot[side]].heel_center];
       double world[3], at[3], off = 0.0;
       ambulo__pose_point(&p.figure.pose, heel->link, heel->position, world);
       ambulo__rigid_vector(&p.figure.axes, world, at);

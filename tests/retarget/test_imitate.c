@@ -18,7 +18,8 @@ static void imitates(const char *file, double tolerance) {
     for (int s = 0; s < AMBULO__SEGMENTS; s++) {
       if (other.figure.link[s] < 0) continue;
       double off = apart(&goal.turn[s], &got.turn[s]);
-      assert_true(off < tolerance);
+      /* arms are pulled toward the start pose */
+      assert_true(off < (s < AMBULO__UPPER_ARM ? tolerance : 0.02));
       if (s < AMBULO__UPPER_ARM) assert_close(miss[s], off, 1e-7);
     }
   }

@@ -24,9 +24,9 @@ static void problem_loads(void **state) {
   ambulo_result *result = NULL;
   char *text = NULL;
   assert_int_equal(write_task(state, &p, NULL, 0, NULL), AMBULO_OK);
-  assert_int_equal(ambulo_problem_load(scratch_path(state, "task/problem.yaml"), NULL, 0, NULL,
-                                       NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load(scratch_path(state, "task/problem.yaml"), NULL, 0, NULL, NULL, &problem),
+      AMBULO_OK);
   assert_close(ambulo_problem_duration(problem), 2.0, 1e-9);
   /* at rest in the start pose it is as far from the motion as that bends its knees */
   double *x = calloc((size_t)ambulo_problem_variable_count(problem), sizeof *x);
@@ -76,8 +76,7 @@ static void nothing_is_written_over(void **state) {
 
 static void arguments(void **state) {
   (void)state;
-  assert_int_equal(ambulo_retarget_write(NULL, "m.yaml", "d", NULL, NULL, NULL),
-                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_retarget_write(NULL, "m.yaml", "d", NULL, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_retarget_report(NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
 }
 

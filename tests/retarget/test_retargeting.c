@@ -23,8 +23,9 @@ static void itself(void **state) {
   person one = person_open(person_file, 0.0), other = person_open(person_file, 0.0);
   ambulo__given given = squat_of(state, &one);
   ambulo__retargeting r;
-  assert_int_equal(
-      ambulo__retargeting_make(&given, &one.figure, &other.figure, 0, 0.0, NULL, &r), AMBULO_OK);
+  assert_int_equal(ambulo__retargeting_make(&given, &one.figure, &other.figure,
+                                            AMBULO_TIMES_NOT_SET, 0.0, NULL, &r),
+                   AMBULO_OK);
   assert_close(r.ratio, 1.0, 1e-12);
   assert_close(r.time_ratio, 1.0, 1e-12);
   assert_int_equal(r.repeats, 0);
@@ -57,16 +58,19 @@ static void smaller(void **state) {
   person one = person_open(person_file, 1.75), other = person_open(person_file, 1.4);
   ambulo__given given = squat_of(state, &one);
   ambulo__retargeting r;
-  for (int keep = 0; keep < 2; keep++) {
+  static const ambulo_times times[] = {AMBULO_TIMES_SCALED, AMBULO_TIMES_KEPT,
+                                       AMBULO_TIMES_NOT_SET};
+  for (int i = 0; i < 3; i++) {
+    int keep = i > 0; /* it does not fly */
     assert_int_equal(
-        ambulo__retargeting_make(&given, &one.figure, &other.figure, keep, 0.0, NULL, &r),
+        ambulo__retargeting_make(&given, &one.figure, &other.figure, times[i], 0.0, NULL, &r),
         AMBULO_OK);
     assert_close(r.ratio, 0.8, 1e-9);
     assert_close(r.time_ratio, keep ? 1.0 : sqrt(0.8), 1e-9);
     assert_close(r.time[r.rows - 1], 2.0 * r.time_ratio, 1e-9);
-    for (int i = 0; i < 2; i++) {
-      int side = r.footing.stance[i].side;
-      assert_close(fabs(r.footing.stance[i].ankle[1]), fabs(other.figure.aside[side]), 0.01);
+    for (int k = 0; k < 2; k++) {
+      int side = r.footing.stance[k].side;
+      assert_close(fabs(r.footing.stance[k].ankle[1]), fabs(other.figure.aside[side]), 0.01);
     }
     ambulo__retargeting_free(&r);
   }
@@ -81,9 +85,9 @@ static void belt(void **state) {
   ambulo__given given = squat_of(state, &one);
   ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
   ambulo__retargeting r;
-  assert_int_equal(
-      ambulo__retargeting_make(&given, &one.figure, &other.figure, 0, 2.0, messages, &r),
-      AMBULO_E_SCHEMA);
+  assert_int_equal(ambulo__retargeting_make(&given, &one.figure, &other.figure,
+                                            AMBULO_TIMES_NOT_SET, 2.0, messages, &r),
+                   AMBULO_E_SCHEMA);
   assert_message(messages, 0, "it never stands");
   ambulo_diagnostics_free(messages);
   ambulo__given_free(&given);
@@ -99,8 +103,8 @@ static void memory_may_run_out_anywhere(void **state) {
     ambulo__given failing = given;
     ambulo__retargeting r;
     failing.allocator = fail_alloc_hook(&memory);
-    ambulo_status status =
-        ambulo__retargeting_make(&failing, &one.figure, &other.figure, 0, 0.0, NULL, &r);
+    ambulo_status status = ambulo__retargeting_make(&failing, &one.figure, &other.figure,
+                                                    AMBULO_TIMES_NOT_SET, 0.0, NULL, &r);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     if (!status) ambulo__retargeting_free(&r);
     assert_int_equal(memory.live, 0);

@@ -10,19 +10,32 @@ static void names(void **state) {
     const char *name;
     int segment;
   } known[] = {
-      {"hip_flexion_r", AMBULO__THIGH},         {"left_hip_pitch_joint", AMBULO__THIGH + 1},
-      {"LHipYaw", AMBULO__THIGH + 1},           {"LeftUpLeg_x", AMBULO__THIGH + 1},
-      {"leg_right_2_joint", AMBULO__THIGH},     {"knee_angle_l", AMBULO__SHANK + 1},
-      {"RightLeg_z", AMBULO__SHANK},            {"leg_left_4_joint", AMBULO__SHANK + 1},
-      {"right_ankle_roll_joint", AMBULO__FOOT}, {"LeftFoot_y", AMBULO__FOOT + 1},
-      {"subtalar_angle_r", AMBULO__FOOT},       {"leg_left_6_joint", AMBULO__FOOT + 1},
-      {"arm_flex_r", AMBULO__UPPER_ARM},        {"left_shoulder_roll", AMBULO__UPPER_ARM + 1},
-      {"arm_left_4_joint", AMBULO__FOREARM + 1}, {"RightForeArm_x", AMBULO__FOREARM},
-      {"elbow_flex_l", AMBULO__FOREARM + 1},    {"lumbar_bending", AMBULO__TORSO},
-      {"waist_yaw_joint", AMBULO__TORSO},       {"spine2_z", AMBULO__TORSO},
-      {"left_wrist_yaw_joint", -1},             {"neck_rotation", -1},
-      {"mtp_angle_r", -1},                      {"knee", -1},
-      {"left_collar_x", -1},                    {"arm_left_7_joint", -1},
+      {"hip_flexion_r", AMBULO__THIGH},
+      {"left_hip_pitch_joint", AMBULO__THIGH + 1},
+      {"LHipYaw", AMBULO__THIGH + 1},
+      {"LeftUpLeg_x", AMBULO__THIGH + 1},
+      {"leg_right_2_joint", AMBULO__THIGH},
+      {"knee_angle_l", AMBULO__SHANK + 1},
+      {"RightLeg_z", AMBULO__SHANK},
+      {"leg_left_4_joint", AMBULO__SHANK + 1},
+      {"right_ankle_roll_joint", AMBULO__FOOT},
+      {"LeftFoot_y", AMBULO__FOOT + 1},
+      {"subtalar_angle_r", AMBULO__FOOT},
+      {"leg_left_6_joint", AMBULO__FOOT + 1},
+      {"arm_flex_r", AMBULO__UPPER_ARM},
+      {"left_shoulder_roll", AMBULO__UPPER_ARM + 1},
+      {"arm_left_4_joint", AMBULO__FOREARM + 1},
+      {"RightForeArm_x", AMBULO__FOREARM},
+      {"elbow_flex_l", AMBULO__FOREARM + 1},
+      {"lumbar_bending", AMBULO__TORSO},
+      {"waist_yaw_joint", AMBULO__TORSO},
+      {"spine2_z", AMBULO__TORSO},
+      {"left_wrist_yaw_joint", -1},
+      {"neck_rotation", -1},
+      {"mtp_angle_r", -1},
+      {"knee", -1},
+      {"left_collar_x", -1},
+      {"arm_left_7_joint", -1},
   };
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     assert_int_equal(ambulo__segment_of(known[i].name), known[i].segment);
@@ -42,8 +55,7 @@ static void root(void **state) {
 static ambulo__yaml *table(const char *text, ambulo_diagnostics *messages) {
   ambulo__yaml *document = NULL;
   assert_int_equal(
-      ambulo__yaml_load_text(text, strlen(text), "map.yaml", NULL, messages, &document),
-      AMBULO_OK);
+      ambulo__yaml_load_text(text, strlen(text), "map.yaml", NULL, messages, &document), AMBULO_OK);
   return document;
 }
 

@@ -32,17 +32,17 @@ static void angles(void **state) {
   check_angles((double[]){0.4, -right, 0.3}, 1e-7);
 }
 
-static const ambulo__joint legs[] = {
-    {"Hips", -1, {0, 0, 0}, 0},           {"LeftUpLeg", 0, {0.1, -0.1, 0}, 0},
-    {"LeftLeg", 1, {0, -0.4, 0}, 0},      {"LeftFoot", 2, {0, -0.4, 0}, 0},
-    {"Site", 3, {0, -0.05, 0.15}, 1},     {"RightUpLeg", 0, {-0.1, -0.1, 0}, 0},
-    {"RightLeg", 5, {0, -0.4, 0}, 0},     {"RightFoot", 6, {0, -0.4, 0}, 0},
+static const ambulo__skeleton_joint legs[] = {
+    {"Hips", -1, {0, 0, 0}, 0},       {"LeftUpLeg", 0, {0.1, -0.1, 0}, 0},
+    {"LeftLeg", 1, {0, -0.4, 0}, 0},  {"LeftFoot", 2, {0, -0.4, 0}, 0},
+    {"Site", 3, {0, -0.05, 0.15}, 1}, {"RightUpLeg", 0, {-0.1, -0.1, 0}, 0},
+    {"RightLeg", 5, {0, -0.4, 0}, 0}, {"RightFoot", 6, {0, -0.4, 0}, 0},
     {"Site", 7, {0, -0.05, 0.15}, 1},
 };
 
 static void model(void **state) {
   (void)state;
-  static ambulo__joints joints;
+  static ambulo__skeleton_joints joints;
   ambulo__given given = {.allocator = ambulo__allocator_or_default(NULL)};
   ambulo__text_init(&given.text, NULL);
   memcpy(joints.joint, legs, sizeof legs);
@@ -55,8 +55,7 @@ static void model(void **state) {
   ambulo__segment_map map;
   ambulo__figure figure;
   ambulo__segments_find(given.body, NULL, &map);
-  assert_int_equal(ambulo__figure_create(given.body, &map, "body", NULL, NULL, &figure),
-                   AMBULO_OK);
+  assert_int_equal(ambulo__figure_create(given.body, &map, "body", NULL, NULL, &figure), AMBULO_OK);
   assert_close(figure.leg, 0.4 + 0.4 + 0.05 + 0.015, 1e-6);
   assert_close(figure.aside[1], 0.1, 1e-6);
   assert_close(figure.aside[0], -0.1, 1e-6);
@@ -66,7 +65,7 @@ static void model(void **state) {
 
 static void feet_are_needed(void **state) {
   (void)state;
-  static ambulo__joints joints;
+  static ambulo__skeleton_joints joints;
   ambulo__given given = {.allocator = ambulo__allocator_or_default(NULL)};
   ambulo__text_init(&given.text, NULL);
   memcpy(joints.joint, legs, sizeof legs);

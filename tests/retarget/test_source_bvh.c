@@ -26,8 +26,8 @@ static ambulo_status read_text(void **state, const char *text, ambulo_diagnostic
 
 /* 9 frames in which the body goes 10 cm a frame along z; the left knee bends in the last one */
 static void write_frames(char *text, size_t size, int frames, int bends) {
-  size_t used = (size_t)snprintf(text, size, "%sMOTION\nFrames: %d\nFrame Time: 0.02\n", HIERARCHY,
-                                 frames);
+  size_t used =
+      (size_t)snprintf(text, size, "%sMOTION\nFrames: %d\nFrame Time: 0.02\n", HIERARCHY, frames);
   for (int k = 0; k < frames; k++)
     used += (size_t)snprintf(text + used, size - used,
                              "0 92 %d 0 0 0  0 0 0  0 %d 0  0 0 0  0 0 0  0 0 0  0 0 0\n", 10 * k,
@@ -45,8 +45,7 @@ static void lengths_and_angles(void **state) {
   assert_int_equal(given.rows, 9);
   assert_close(given.time[8], 0.16, 1e-12);
   ambulo__segments_find(given.body, NULL, &map);
-  assert_int_equal(ambulo__figure_create(given.body, &map, "body", NULL, NULL, &figure),
-                   AMBULO_OK);
+  assert_int_equal(ambulo__figure_create(given.body, &map, "body", NULL, NULL, &figure), AMBULO_OK);
   /* centimetres are known as such */
   assert_close(figure.leg, 0.82 + 0.05 + 0.015, 1e-6);
   ambulo__figure_at(&figure, given.q, &first);

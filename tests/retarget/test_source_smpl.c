@@ -58,8 +58,7 @@ static void stands_and_goes(void **state) {
   assert_int_equal(given.rows, FRAMES);
   assert_close(given.time[FRAMES - 1], (FRAMES - 1) / 50.0, 1e-12);
   ambulo__segments_find(given.body, NULL, &map);
-  assert_int_equal(ambulo__figure_create(given.body, &map, "body", NULL, NULL, &figure),
-                   AMBULO_OK);
+  assert_int_equal(ambulo__figure_create(given.body, &map, "body", NULL, NULL, &figure), AMBULO_OK);
   ambulo__figure_at(&figure, given.q, &first);
   ambulo__figure_at(&figure, given.q + (FRAMES - 1) * given.body->coordinate_count, &last);
   assert_true(apart(&first.turn[AMBULO__PELVIS], &same) < 1e-9);

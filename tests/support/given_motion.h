@@ -1,4 +1,5 @@
-/* tests/support/given_motion.h - a shipped body, its segments, and motions of it for retargeting. */
+/* tests/support/given_motion.h - a shipped body, its segments, and motions of it for retargeting.
+ */
 #ifndef AMBULO_TESTS_GIVEN_MOTION_H
 #define AMBULO_TESTS_GIVEN_MOTION_H
 
@@ -50,8 +51,8 @@ static inline void write_squat(const char *path, int rows) {
                 "knee_angle_l,ankle_angle_r,ankle_angle_l\n");
   for (int k = 0; k < rows; k++) {
     double u = (double)k / (rows - 1), bend = 15.0 * (1.0 - cos(2.0 * acos(-1.0) * u));
-    fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", 2.0 * u, bend, bend, 2 * bend,
-            2 * bend, bend, bend);
+    fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", 2.0 * u, bend, bend, 2 * bend, 2 * bend,
+            bend, bend);
   }
   assert_int_equal(fclose(file), 0);
 }
