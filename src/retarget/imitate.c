@@ -20,10 +20,18 @@ static void solve(double m[3][3], double x[3]) {
   }
 }
 
-/* One step; its length, rad. With the pull c toward the start pose q0 the least of |e - J dq|^2 + c |q
+double ambulo__at_ease(const ambulo_coordinate *about) {
+  static const double margin = 0.1; /* of the range */
+  double room = about->range[1] - about->range[0], value = about->default_value;
+  if (!isfinite(room)) return value;
+  return fmin(fmax(value, about->range[0] + margin * room), about->range[1] - margin * room);
+}
+
+/* One step; its length, rad. With the pull c toward the pose at ease, q0, the least of |e - J dq|^2
+ * + c |q
  * + dq - q0|^2 is J^T (J J^T + c 1)^-1 (e + J (q - q0)) - (q - q0). */
 static double step(const ambulo__figure *figure, int segment, const double error[3], double *q) {
-  static const double damping = 1e-4, pull = 3e-3;
+  static const double damping = 1e-4, pull = 1e-2;
   int count = figure->map.count[segment], pulled = segment >= AMBULO__UPPER_ARM;
   double axis[AMBULO__SEGMENT_COORDINATES][3], m[3][3] = {{0.0}}, x[3], length = 0.0;
   for (int i = 0; i < 3; i++) {
@@ -32,7 +40,7 @@ static double step(const ambulo__figure *figure, int segment, const double error
   }
   for (int g = 0; g < count; g++) {
     int c = figure->map.coordinate[segment][g];
-    double point[3], away = pulled ? q[c] - figure->model->coordinates[c].default_value : 0.0;
+    double point[3], away = pulled ? q[c] - ambulo__at_ease(&figure->model->coordinates[c]) : 0.0;
     ambulo__figure_axis(figure, c, point, axis[g]);
     for (int i = 0; i < 3; i++) {
       for (int j = 0; j < 3; j++) m[i][j] += axis[g][i] * axis[g][j];
@@ -42,7 +50,7 @@ static double step(const ambulo__figure *figure, int segment, const double error
   solve(m, x);
   for (int g = 0; g < count; g++) {
     int c = figure->map.coordinate[segment][g];
-    double away = pulled ? q[c] - figure->model->coordinates[c].default_value : 0.0;
+    double away = pulled ? q[c] - ambulo__at_ease(&figure->model->coordinates[c]) : 0.0;
     double change = ambulo__dot(axis[g], x) - away;
     q[c] += change;
     length += fabs(change);

@@ -246,6 +246,16 @@ static void put_pelvis(making *t, int row, double floor, double *q) {
   }
 }
 
+/* before the first row: the start pose, arms at ease */
+static void begin(const making *t, double *q) {
+  const ambulo__segment_map *map = &t->target->map;
+  const ambulo_coordinate *about = t->target->model->coordinates;
+  for (int c = 0; c < t->target->model->coordinate_count; c++) q[c] = about[c].default_value;
+  for (int s = AMBULO__UPPER_ARM; s < AMBULO__SEGMENTS; s++)
+    for (int i = 0; i < map->count[s]; i++)
+      q[map->coordinate[s][i]] = ambulo__at_ease(&about[map->coordinate[s][i]]);
+}
+
 static ambulo_status make_reference(making *t, double floor) {
   ambulo__retargeting *plan = t->plan;
   size_t d = (size_t)t->target->model->coordinate_count;
@@ -257,8 +267,10 @@ static ambulo_status make_reference(making *t, double floor) {
   for (int k = 0; k < t->rows; k++) {
     double *q = plan->q + (size_t)k * d;
     plan->time[k] = plan->time_ratio * t->given->time[k];
-    for (size_t c = 0; c < d; c++)
-      q[c] = k ? q[c - d] : t->target->model->coordinates[c].default_value;
+    if (k)
+      memcpy(q, q - d, d * sizeof *q);
+    else
+      begin(t, q);
     ambulo__imitate(t->target, &t->posture[k], q, miss);
     put_pelvis(t, k, floor, q);
   }

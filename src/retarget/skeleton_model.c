@@ -46,8 +46,8 @@ static void print_link(ambulo__text_buffer *text, const char *joint, const char 
   ambulo__text_append_format(text, "}, axis: %s", axis);
 }
 
-static void print_ball(ambulo__text_buffer *text, const ambulo__skeleton_joint *joint, const char *parent,
-                       const char *parent_suffix, const double offset[3]) {
+static void print_ball(ambulo__text_buffer *text, const ambulo__skeleton_joint *joint,
+                       const char *parent, const char *parent_suffix, const double offset[3]) {
   static const double here[3] = {0.0};
   print_link(text, joint->name, "_x", parent, parent_suffix, "revolute", offset, "[1, 0, 0]}\n");
   print_link(text, joint->name, "_y", joint->name, "_x", "revolute", here, "[0, 1, 0]}\n");
@@ -57,7 +57,8 @@ static void print_ball(ambulo__text_buffer *text, const ambulo__skeleton_joint *
 }
 
 /* the joints below one, and what is deepest and furthest ahead of them */
-static void look_below(const ambulo__skeleton_joints *joints, int joint, double *deepest, double *ahead) {
+static void look_below(const ambulo__skeleton_joints *joints, int joint, double *deepest,
+                       double *ahead) {
   double at[AMBULO__MOST_JOINTS][3];
   unsigned char below[AMBULO__MOST_JOINTS] = {0};
   memset(at[joint], 0, sizeof at[joint]);
@@ -78,8 +79,8 @@ static const char *side_word(int segment) {
 }
 
 /* points of a foot's sole: heels as far behind the ankle as a third of the way to the front */
-static void print_points(ambulo__text_buffer *text, const ambulo__skeleton_joints *joints, int joint,
-                         int segment) {
+static void print_points(ambulo__text_buffer *text, const ambulo__skeleton_joints *joints,
+                         int joint, int segment) {
   static const double half_width = 0.03, sole = 0.015;
   double deepest, ahead;
   look_below(joints, joint, &deepest, &ahead);

@@ -22,7 +22,7 @@ extern "C" {
 /* How long the motion of the other body takes. */
 typedef enum ambulo_times {
   AMBULO_TIMES_NOT_SET = 0, /* scaled where the motion flies, since gravity stays; else kept */
-  AMBULO_TIMES_SCALED,        /* times the root of the ratio of lengths */
+  AMBULO_TIMES_SCALED,      /* times the root of the ratio of lengths */
   AMBULO_TIMES_KEPT
 } ambulo_times;
 
