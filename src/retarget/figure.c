@@ -34,7 +34,7 @@ void ambulo__turn_vector(const ambulo__rigid *turn, double vector[3]) {
 
 ambulo__rigid ambulo__turn_of_vector(const double vector[3]) {
   double axis[3] = {vector[0], vector[1], vector[2]}, angle = sqrt(ambulo__dot(axis, axis));
-  if (!ambulo__normalize(axis)) return ambulo__rigid_identity();
+  if (ambulo__normalize(axis) == 0.0) return ambulo__rigid_identity();
   return ambulo__rigid_turn(axis, angle);
 }
 
@@ -43,7 +43,7 @@ static ambulo__rigid least_turn(const double from[3], const double to[3]) {
   double axis[3], cosine = ambulo__dot(from, to);
   ambulo__cross(from, to, axis);
   double angle = atan2(sqrt(ambulo__dot(axis, axis)), cosine);
-  if (!ambulo__normalize(axis)) {
+  if (ambulo__normalize(axis) == 0.0) {
     axis[0] = axis[2] = 0.0;
     axis[1] = 1.0;
   }
@@ -172,7 +172,7 @@ static ambulo__rigid limb_turn(const ambulo__figure *figure, int segment,
     return ambulo__rigid_identity();
   for (int i = 0; i < 3; i++) way[i] = end[i] - center[segment][i];
   if (leg && figure->map.count[AMBULO__SHANK] == 1) way[1] = 0.0;
-  return ambulo__normalize(way) ? least_turn(down, way) : ambulo__rigid_identity();
+  return ambulo__normalize(way) > 0.0 ? least_turn(down, way) : ambulo__rigid_identity();
 }
 
 static ambulo__rigid foot_turn(const ambulo__figure *figure, int side) {
@@ -181,7 +181,7 @@ static ambulo__rigid foot_turn(const ambulo__figure *figure, int side) {
   point_of(figure, figure->model->feet[figure->foot[side]].heel_center, heel);
   point_of(figure, figure->model->feet[figure->foot[side]].toe_center, toe);
   for (int i = 0; i < 3; i++) toe[i] -= heel[i];
-  return ambulo__normalize(toe) ? least_turn(forward, toe) : ambulo__rigid_identity();
+  return ambulo__normalize(toe) > 0.0 ? least_turn(forward, toe) : ambulo__rigid_identity();
 }
 
 /* the model's foot whose heel hangs on a segment's link */
