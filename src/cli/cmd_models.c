@@ -277,8 +277,9 @@ static int write_new(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option new_options[] = {
     {"output", 'o', "FILE", "write it there (default: standard output)"},
-    {"for", 0, "MODEL.yaml", "with 'walk': a problem in which this model walks; of four legs also "
-                              "with\n'trot' and 'bound'"},
+    {"for", 0, "MODEL.yaml",
+     "with 'walk': a problem in which this model walks; of four legs also "
+     "with\n'trot' and 'bound'"},
     {"speed", 0, "M/S", "with --for: its speed (default: by the length of the legs)"},
     {"step-length", 0, "M", "with --for: its step (default: by legs and speed)"},
     {"force", 0, NULL, "replace a file that is there"},
@@ -296,7 +297,8 @@ const ambulo__cli_command ambulo__cli_new = {
         "it\n"
         "names are found from anywhere; a file of that name beside it takes precedence. Comments\n"
         "call the file by the name of -o, or my.yaml.\n"
-        "With --for, the walk is made for a model of two or four legs, such as 'ambulo import' gives: its\n"
+        "With --for, the walk is made for a model of two or four legs, such as 'ambulo import' "
+        "gives: its\n"
         "speed, steps, weights and rows follow from mass, legs and feet.",
     .example = "ambulo new\nambulo new walk > my.yaml\nambulo new walk --for robot.yaml -o "
                "robot_walk.yaml\nambulo new device -o exoskeleton.yaml",

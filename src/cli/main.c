@@ -13,11 +13,11 @@
 #include "cli/shipped.h"
 
 static const ambulo__cli_command *const commands[] = {
-    &ambulo__cli_solve,   &ambulo__cli_evaluate, &ambulo__cli_check,   &ambulo__cli_info,
-    &ambulo__cli_inverse, &ambulo__cli_muscles,  &ambulo__cli_compare, &ambulo__cli_batch,
-    &ambulo__cli_collect, &ambulo__cli_fit,      &ambulo__cli_report,  &ambulo__cli_models,
-    &ambulo__cli_new,     &ambulo__cli_import,   &ambulo__cli_draw,    &ambulo__cli_film,
-    &ambulo__cli_export,
+    &ambulo__cli_solve,   &ambulo__cli_evaluate, &ambulo__cli_check,    &ambulo__cli_info,
+    &ambulo__cli_inverse, &ambulo__cli_muscles,  &ambulo__cli_compare,  &ambulo__cli_batch,
+    &ambulo__cli_collect, &ambulo__cli_fit,      &ambulo__cli_report,   &ambulo__cli_models,
+    &ambulo__cli_new,     &ambulo__cli_import,   &ambulo__cli_retarget, &ambulo__cli_draw,
+    &ambulo__cli_film,    &ambulo__cli_export,
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

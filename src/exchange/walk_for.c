@@ -76,8 +76,8 @@ ambulo_status ambulo_walk_for(const char *model, const ambulo_walk_options *opti
   ambulo_walk_options own;
   if (!AMBULO__OWN(ambulo_walk_options, &own, options)) return AMBULO_E_ARGUMENT;
   if (!model || !model[0] || !text || !is_one_line(model) ||
-      (own.model && !is_one_line(own.model)) || !is_sane(own.speed) ||
-      !is_sane(own.step_length) || (own.gait && !ambulo__is_gait_of_four(own.gait)))
+      (own.model && !is_one_line(own.model)) || !is_sane(own.speed) || !is_sane(own.step_length) ||
+      (own.gait && !ambulo__is_gait_of_four(own.gait)))
     return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__text_buffer buffer;

@@ -8,9 +8,9 @@
  *     bound    0     0     1/2   1/2   0.45    2.5                      0.5
  *
  * with l the length of the legs. A walk has three or four feet down at any time; a trot two, and
- * four where pairs change; a bound is in flight twice. Footholds are under the places that feet have
- * in the start pose when the body is half-way through their stance. Where left and right are images
- * of each other, walk and trot are half a stride and its mirror image.
+ * four where pairs change; a bound is in flight twice. Footholds are under the places that feet
+ * have in the start pose when the body is half-way through their stance. Where left and right are
+ * images of each other, walk and trot are half a stride and its mirror image.
  *
  * Lengths, times and torques are counted as in walk_robot.c. Forces are not drawn to the centre of
  * mass (slant 1): seen from feet that stand wide it is too far aside for friction.
@@ -61,12 +61,12 @@ static void line(const stride *s, const char *before, double value, const char *
 
 static void print_head(const stride *s) {
   const ambulo__walker *w = s->w;
-  ambulo__text_append_format(s->text, "# A %s of %s, by 'ambulo new %s --for': %s.\n",
-                             s->gait->name, w->file, s->gait->name,
-                             s->part < 1.0 ? "half a stride, followed by its mirror image"
-                                           : "a stride");
+  ambulo__text_append_format(
+      s->text, "# A %s of %s, by 'ambulo new %s --for': %s.\n", s->gait->name, w->file,
+      s->gait->name, s->part < 1.0 ? "half a stride, followed by its mirror image" : "a stride");
   line(s, "#\n# Numbers follow from the body, ", w->mass, " kg on legs of ");
-  line(s, "", w->leg, " m: lengths are shares of the legs, torques of weight\n# times legs, times ");
+  line(s, "", w->leg,
+       " m: lengths are shares of the legs, torques of weight\n# times legs, times ");
   line(s, "of the pendulum they make. It goes at ", s->travel / s->time, " m/s.\n\n");
   ambulo__text_append_format(s->text,
                              "ambulo: 1\nkind: problem\nname: %s\nmodel: %s\nangles: degrees\n\n",

@@ -128,14 +128,15 @@ static void print_objective(const ambulo__walker *w, ambulo__text_buffer *text) 
   ambulo__text_append(text, "objective:\n  # small torques\n  - term: torque_squared\n");
   line_of(text, "    weight: ", 60.0 / (torque * torque), " # 60 / (weight times leg)^2\n");
   ambulo__walk_sliders(w, w->leg, 0, text);
-  ambulo__walk_posture(w, AMBULO__PART_ROOT,
-                "  # a trunk that stays as in the start pose\n  - term: posture\n    name: trunk\n"
-                "    weight: 20\n",
-                text);
+  ambulo__walk_posture(
+      w, AMBULO__PART_ROOT,
+      "  # a trunk that stays as in the start pose\n  - term: posture\n    name: trunk\n"
+      "    weight: 20\n",
+      text);
   ambulo__walk_posture(w, AMBULO__PART_REST,
-                "  # and so does what is above: arms hang as there, and may swing a little\n"
-                "  - term: posture\n    name: arms\n    weight: 5\n",
-                text);
+                       "  # and so does what is above: arms hang as there, and may swing a little\n"
+                       "  - term: posture\n    name: arms\n    weight: 5\n",
+                       text);
   ambulo__text_append(text, "  # smooth motions\n  - term: acceleration\n");
   line_of(text, "    weight: ", 0.002 * time_squared * time_squared,
           " # 0.002 (leg / gravity)^2\n");

@@ -76,9 +76,7 @@ static void find_parts(ambulo__walker *w) {
   for (int side = 0; side < w->feet; side++) count_path(w, side, passes);
   for (int c = 0; c < w->count; c++) {
     int one = passes[c] != 0 && (passes[c] & (passes[c] - 1)) == 0; /* of one leg alone */
-    w->part[c] = passes[c] == all ? AMBULO__PART_ROOT
-                 : one            ? AMBULO__PART_LEG
-                                  : AMBULO__PART_REST;
+    w->part[c] = passes[c] == all ? AMBULO__PART_ROOT : one ? AMBULO__PART_LEG : AMBULO__PART_REST;
   }
 }
 

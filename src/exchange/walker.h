@@ -78,7 +78,8 @@ void ambulo__walk_sliders(const ambulo__walker *walker, double scale, int all,
 
 /* "walk", "trot", "bound"; 0: no gait of four legs. */
 int ambulo__is_gait_of_four(const char *name);
-/* At walker->speed and with strides of walker->step, 0 of either: as the gait and the legs have it. */
+/* At walker->speed and with strides of walker->step, 0 of either: as the gait and the legs have it.
+ */
 void ambulo__walk_of_quadruped(const ambulo__walker *walker, const char *gait,
                                ambulo__text_buffer *text);
 

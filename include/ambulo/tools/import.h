@@ -78,10 +78,10 @@ typedef struct ambulo_walk_options {
 AMBULO_TOOL_DEFAULT(ambulo_walk_options);
 
 /* The text of a problem file, with comments, in which the body of a model file walks: one step and
- * its mirror image, or two where the sides differ; on four feet half a stride, or a whole one. Its numbers follow from the mass, the legs and
- * the feet. To be freed with ambulo_text_free. `options` (NULL: defaults), `allocator` and
- * `diagnostics` may be NULL. Errors: as ambulo_model_load; E_MODEL too: not two or four feet, no legs, fixed
- * to the world. */
+ * its mirror image, or two where the sides differ; on four feet half a stride, or a whole one. Its
+ * numbers follow from the mass, the legs and the feet. To be freed with ambulo_text_free. `options`
+ * (NULL: defaults), `allocator` and `diagnostics` may be NULL. Errors: as ambulo_model_load;
+ * E_MODEL too: not two or four feet, no legs, fixed to the world. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_walk_for(const char *model,
                                                           const ambulo_walk_options *options,
                                                           const ambulo_allocator *allocator,

@@ -11,6 +11,7 @@
  *     film.h     results as films: MP4, GIF
  *     page.h     results to watch, as one HTML file
  *     import.h   models of OpenSim, URDF and MuJoCo
+ *     retarget.h a motion of one body as a task for another
  *     export.h   models and motions for OpenSim, URDF and NumPy
  *
  * The tools are outside the promise of ambulo/ambulo.h. They may change with any release.
@@ -31,4 +32,5 @@
 #include "ambulo/tools/page.h"
 #include "ambulo/tools/picture.h"
 #include "ambulo/tools/report.h"
+#include "ambulo/tools/retarget.h"
 #endif

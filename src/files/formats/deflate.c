@@ -49,7 +49,35 @@ void ambulo__deflate(ambulo__text_buffer *out, const char *bytes, size_t length)
   (void)deflateEnd(&stream);
 }
 
+ambulo_status ambulo__inflate(ambulo__text_buffer *out, const char *bytes, size_t length,
+                              size_t limit) {
+  enum { RAW = -MAX_WBITS };
+  char piece[4096];
+  z_stream stream = {.zalloc = take, .zfree = give, .opaque = &out->allocator};
+  if (length > UINT_MAX) return AMBULO_E_PARSE;
+  stream.next_in = (const Bytef *)bytes;
+  stream.avail_in = (uInt)length;
+  if (inflateInit2(&stream, RAW) != Z_OK) return AMBULO_E_MEMORY;
+  int said = Z_OK;
+  while (said == Z_OK && stream.total_out <= limit && !out->failed) {
+    stream.next_out = (Bytef *)piece;
+    stream.avail_out = sizeof piece;
+    said = inflate(&stream, Z_NO_FLUSH);
+    ambulo__text_append_bytes(out, piece, sizeof piece - stream.avail_out);
+  }
+  int whole = said == Z_STREAM_END && stream.total_out <= limit;
+  (void)inflateEnd(&stream);
+  if (out->failed) return AMBULO_E_MEMORY;
+  return whole ? AMBULO_OK : AMBULO_E_PARSE;
+}
+
 #else
+
+ambulo_status ambulo__inflate(ambulo__text_buffer *out, const char *bytes, size_t length,
+                              size_t limit) {
+  (void)out, (void)bytes, (void)length, (void)limit;
+  return AMBULO_E_IO;
+}
 
 /* RFC 1951, 3.2.4: blocks that are not compressed, each with its length and the complement of it */
 void ambulo__deflate(ambulo__text_buffer *out, const char *bytes, size_t length) {

@@ -10,4 +10,9 @@
  * from one version of zlib. */
 void ambulo__deflate(ambulo__text_buffer *out, const char *bytes, size_t length);
 
+/* Appends what compressed bytes hold, at most `limit` of it. E_IO: built without zlib; E_PARSE:
+ * they are damaged, or hold more; E_MEMORY. */
+ambulo_status ambulo__inflate(ambulo__text_buffer *out, const char *bytes, size_t length,
+                              size_t limit);
+
 #endif

@@ -39,6 +39,7 @@ static const ambulo__usual rows[] = {
     ROW(ambulo_fit_options, 1, {.case_seconds = AMBULO_OFF, .grace = 30.0}),
     ROW(ambulo_import_options, 1, {0}),
     ROW(ambulo_walk_options, 1, {.speed = AMBULO_OFF, .step_length = AMBULO_OFF}),
+    ROW(ambulo_retarget_options, 1, {.from = -INFINITY, .to = INFINITY}),
     ROW(ambulo_export_options, 1, {.format = AMBULO_EXPORT_OPENSIM}),
 };
 
