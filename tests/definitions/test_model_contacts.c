@@ -64,7 +64,7 @@ static void faults(void **state) {
   model_bad(FOOT("heel: [h1], toe: [t1], mirror: fot"), AMBULO_E_MODEL,
             "t.yaml:14:49: error[E_MODEL]: unknown foot (got 'fot'); expected the name of a foot "
             "of this model\n  hint: did you mean 'foot'?");
-  model_bad(FOOT("heel: [h1], toe: [h1]"), AMBULO_E_MODEL,
+  model_bad(FOOT("heel: [h1], toe: [h1], toe_center: hc"), AMBULO_E_MODEL,
             "t.yaml:14:5: error[E_MODEL]: foot 'foot' uses one point twice");
   model_bad(FOOT("heel: [h1], tow: [t1], toe: [t1]"), AMBULO_E_SCHEMA,
             "t.yaml:14:30: error[E_SCHEMA]: unknown key 'tow'");
