@@ -117,3 +117,31 @@ void ambulo__export_mimic(const ambulo_model *model, int index, ambulo__text_buf
   ambulo__text_append_number(text, link->polynomial[0]);
   ambulo__text_append(text, "\"/>\n");
 }
+
+/* -------------------------------------------------------- what has no counterpart */
+
+static int is_driven(const ambulo_problem *problem, int coordinate) {
+  for (int i = 0; problem && i < problem->definition.device_count; i++)
+    if (problem->definition.devices[i].coordinate == coordinate) return 1;
+  return 0;
+}
+
+ambulo_status ambulo__coupled_check(const ambulo_model *model, const ambulo_export_options *options,
+                                    ambulo_diagnostics *diagnostics) {
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    if (link->coupled_to < 0) continue;
+    const char *leader = model->coordinates[link->coupled_to].name;
+    const char *why = NULL;
+    if (options->format == AMBULO_EXPORT_NPZ)
+      why = ": an .npz has no coupled joints; expected --format opensim";
+    else if (options->format == AMBULO_EXPORT_URDF && ambulo__is_curved(link))
+      why = " by a curve; a URDF has straight lines alone";
+    else if (is_driven(options->problem, link->coupled_to))
+      why = ", where a device acts: that cannot be exported";
+    if (why)
+      return ambulo__error(diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "'%s' follows '%s'%s", link->name, leader, why);
+  }
+  return AMBULO_OK;
+}

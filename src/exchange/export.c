@@ -196,37 +196,6 @@ static int same_body(const ambulo_model *a, const ambulo_model *b) {
   return a->foot_count == b->foot_count && a->patch_count == b->patch_count;
 }
 
-static int is_driven(const ambulo_problem *problem, int coordinate) {
-  for (int i = 0; problem && i < problem->definition.device_count; i++)
-    if (problem->definition.devices[i].coordinate == coordinate) return 1;
-  return 0;
-}
-
-/* Where joints follow, an array of a robot's coordinates, a curve in a URDF, and a device at what
- * is followed have no counterpart. */
-static ambulo_status check_coupled(const job *j) {
-  const ambulo_model *model = j->model;
-  for (int i = 0; i < model->link_count; i++) {
-    const ambulo_link *link = &model->links[i];
-    if (link->coupled_to < 0) continue;
-    const char *leader = model->coordinates[link->coupled_to].name;
-    if (j->options->format == AMBULO_EXPORT_NPZ)
-      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
-                           "'%s' follows '%s': an .npz has no coupled joints; expected --format "
-                           "opensim",
-                           link->name, leader);
-    if (j->options->format == AMBULO_EXPORT_URDF && ambulo__is_curved(link))
-      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
-                           "'%s' follows '%s' by a curve; a URDF has straight lines alone",
-                           link->name, leader);
-    if (is_driven(j->options->problem, link->coupled_to))
-      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
-                           "'%s' follows '%s', where a device acts: that cannot be exported",
-                           link->name, leader);
-  }
-  return AMBULO_OK;
-}
-
 static ambulo_status check_asked(const job *j) {
   ambulo_export_format format = j->options->format;
   if (format == AMBULO_EXPORT_NPZ && !j->motion)
@@ -236,7 +205,7 @@ static ambulo_status check_asked(const job *j) {
   if (format == AMBULO_EXPORT_URDF && j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
                          "--format npz writes the motion", "a URDF cannot hold a motion");
-  ambulo_status coupled = check_coupled(j);
+  ambulo_status coupled = ambulo__coupled_check(j->model, j->options, j->diagnostics);
   if (coupled) return coupled;
   if (j->options->problem && !same_body(j->model, j->options->problem->model))
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,

@@ -13,6 +13,7 @@
 #ifndef AMBULO_EXCHANGE_EXPORT_H
 #define AMBULO_EXCHANGE_EXPORT_H
 
+#include "ambulo/tools/export.h"
 #include "ambulo/tools/inverse.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
@@ -262,6 +263,10 @@ void ambulo__mover_function(const ambulo__export_body *body, const ambulo_model 
 void ambulo__export_couplers(const ambulo__bodies *bodies, ambulo__text_buffer *text);
 /* <mimic> of a URDF. */
 void ambulo__export_mimic(const ambulo_model *model, int link, ambulo__text_buffer *text);
+/* Where joints follow, an array of a robot's coordinates, a curve in a URDF, and a device at what
+ * is followed have no counterpart. */
+ambulo_status ambulo__coupled_check(const ambulo_model *model, const ambulo_export_options *options,
+                                    ambulo_diagnostics *diagnostics);
 /* 1: the joint of a link is no straight line of what it follows: a URDF cannot have it. */
 int ambulo__is_curved(const ambulo_link *link);
 

@@ -20,7 +20,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { FEET = 4, INTERVALS = 160, PIECES = 20 };
+enum { FEET = 4, INTERVALS = 240, PIECES = 20 };
 
 typedef struct gait_of_four {
   const char *name;
@@ -59,6 +59,17 @@ static void line(const stride *s, const char *before, double value, const char *
   ambulo__text_append(s->text, after);
 }
 
+/* whole steps of `by`, so that images of places and times agree to the last digit */
+static double stepped(double value, double by) {
+  return round(value / by) * by;
+}
+
+static void exact(const stride *s, const char *before, double value, const char *after) {
+  ambulo__text_append(s->text, before);
+  ambulo__text_append_number(s->text, ambulo__significant(value, 9));
+  ambulo__text_append(s->text, after);
+}
+
 static void print_head(const stride *s) {
   const ambulo__walker *w = s->w;
   ambulo__text_append_format(
@@ -71,7 +82,7 @@ static void print_head(const stride *s) {
   ambulo__text_append_format(s->text,
                              "ambulo: 1\nkind: problem\nname: %s\nmodel: %s\nangles: degrees\n\n",
                              s->gait->name, w->file);
-  line(s, "time: {duration: ", s->part * s->time, ", grid: events, ");
+  exact(s, "time: {duration: ", s->part * s->time, ", grid: events, ");
   ambulo__text_append_format(s->text,
                              "intervals: %d}\n"
                              "trajectory: {basis: bspline, degree: 4, intervals: %d, knots: "
@@ -86,10 +97,10 @@ static void print_contact(const stride *s, int foot, double from, double to) {
   if (end - begin < 1e-9) return;
   ambulo__text_append_format(s->text, "  - {foot: %s, mode: flat, from: ",
                              ambulo_model_foot(s->w->model, s->w->foot[foot])->name);
-  line(s, "", begin * s->time, ", to: ");
-  line(s, "", end * s->time, ", place: [");
-  line(s, "", at[0] + s->travel * middle, ", ");
-  line(s, "", at[1], "]}\n");
+  exact(s, "", begin * s->time, ", to: ");
+  exact(s, "", end * s->time, ", place: [");
+  exact(s, "", stepped(at[0], 1e-4) + s->travel * middle, ", ");
+  exact(s, "", stepped(at[1], 1e-4), "]}\n");
 }
 
 static void print_contacts(const stride *s) {
@@ -118,7 +129,7 @@ static void print_rows(const stride *s) {
   if (w->has_torque_limits) ambulo__text_append(s->text, "  torque_limits: true\n");
   ambulo__text_append_format(s->text, "\nends: {kind: %s, order: 2, ",
                              s->part < 1.0 ? "mirrored" : "periodic");
-  line(s, "travel: ", s->part * s->travel, "}\n\n");
+  exact(s, "travel: ", s->part * s->travel, "}\n\n");
 }
 
 static void print_objective(const stride *s) {
@@ -152,7 +163,8 @@ void ambulo__walk_of_quadruped(const ambulo__walker *walker, const char *gait,
   if (walker->speed > 0.0) speed = walker->speed;
   if (walker->speed == 0.0 && walker->step > 0.0) speed = walker->step / usual;
   s.travel = walker->step > 0.0 ? walker->step : speed * usual;
-  s.time = s.travel / speed;
+  s.travel = stepped(s.travel, 2e-4);
+  s.time = stepped(s.travel / speed, 2e-3);
   s.part = s.gait->mirrors && walker->symmetric ? 0.5 : 1.0;
   print_head(&s);
   print_contacts(&s);

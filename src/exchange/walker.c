@@ -233,6 +233,12 @@ static ambulo_status measure(ambulo__walker *w, ambulo_diagnostics *diagnostics)
     w->at[side][1] = dot(ambulo_model_left(w->model), at);
     w->leg += length_of(w, side, &stands) / w->feet;
   }
+  for (int left = 0; left < w->feet && w->symmetric; left += 2) {
+    double *a = w->at[left], *b = w->at[left + 1];
+    a[0] = b[0] = 0.5 * (a[0] + b[0]);
+    a[1] = 0.5 * (a[1] - b[1]);
+    b[1] = -a[1];
+  }
   if (!stands || !(w->leg > 1e-3))
     return refuse(diagnostics, NULL,
                   "the body does not stand in its start pose (got legs of %d mm, along forward and "

@@ -115,7 +115,7 @@ rm -r of_walk of_walk.csv
 
 # for the tutorials: a model and a motion of OpenSim, a robot
 users=$(dirname "$0")/../users
-cp "$users/walker.osim" "$users/biped.urdf" .
+cp "$users/walker.osim" "$users/biped.urdf" "$users/quadruped.urdf" .
 awk -F '\t' -f "$users/measured.awk" ik.mot >measured.mot
 
 # walks of people whose prices nobody knows, for docs/guide-fit.md: the left foot strikes at 0
