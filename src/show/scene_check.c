@@ -14,7 +14,7 @@ static const double longest = 1e6; /* s */
 static int is_text_key(const char *key) {
   static const char *const keys[] = {"schema", "problem", "model", "input_hash", "name",
                                      "kind",   "side",    "unit",  "shape",      "point",
-                                     "mode",   "people",  "group"};
+                                     "mode",   "people",  "group", "link", "vertices", "triangles"};
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
     if (strcmp(key, keys[i]) == 0) return 1;
   return 0;

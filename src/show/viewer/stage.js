@@ -41,7 +41,7 @@ export class Stage {
     this.scene.add(this.root);
     this.lights();
     this.shows = { forces: true, prints: true, paths: false, mass: false, bones: false,
-      ghost: true, follow: true, muscles: true, contacts: false };
+      ghost: true, follow: true, muscles: true, contacts: false, meshes: true };
     this.time = 0;
     this.period = 0;
     this.apart = false; // two motions side by side
@@ -95,7 +95,10 @@ export class Stage {
     const { shows } = this;
     this.actor.show(shows);
     this.second?.show(shows);
-    if (this.ghost) this.ghost.group.visible = shows.ghost;
+    if (this.ghost) {
+      this.ghost.group.visible = shows.ghost;
+      this.ghost.showBones(false, false, shows.meshes);
+    }
     this.moveTo(this.time, this.period, this.ghostTime);
   }
 

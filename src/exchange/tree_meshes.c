@@ -1,0 +1,219 @@
+/* exchange/tree_meshes.c - the meshes of a body, coarse enough for a page (meshes.h).
+ *
+ * Of a link those count that are only seen, and without any those that touch. Each is read, thinned
+ * and forgotten before the next. Then the whole body is made of cells of one size, the finest with
+ * at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely as a trunk.
+ */
+#include "exchange/meshes.h"
+
+#include "exchange/body_tree.h"
+#include "formats/json_text.h"
+#include "formats/paths.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST = 16000, FINEST = 64 }; /* triangles; cells along the longest side of a mesh, once read */
+static const double farthest = 1e3; /* m: what is beyond is no part of a body */
+
+char *ambulo__meshes_path(const ambulo_allocator *allocator, const char *model) {
+  static const char *const ends[] = {".yaml", ".yml"};
+  size_t length = strlen(model);
+  for (int i = 0; i < 2; i++) {
+    size_t end = strlen(ends[i]);
+    if (length <= end || strcmp(model + length - end, ends[i]) != 0) continue;
+    char *path = ambulo__alloc(allocator, length + sizeof ".meshes", 1);
+    if (!path) return NULL;
+    memcpy(path, model, length - end);
+    memcpy(path + length - end, ".meshes", sizeof ".meshes");
+    return path;
+  }
+  return NULL;
+}
+
+/* ------------------------------------------------------------------------ reading */
+
+/* appends one shell to another */
+static ambulo_status join(const ambulo_allocator *a, ambulo__shell *to, const ambulo__shell *more) {
+  size_t points = (size_t)to->point_count, count = (size_t)to->count;
+  double *all = ambulo__realloc(a, to->points, 3 * (points + (size_t)more->point_count) + 1,
+                                sizeof *all);
+  if (!all) return AMBULO_E_MEMORY;
+  to->points = all;
+  int *corners = ambulo__realloc(a, to->corners, 3 * (count + (size_t)more->count) + 1,
+                                 sizeof *corners);
+  if (!corners) return AMBULO_E_MEMORY;
+  to->corners = corners;
+  memcpy(all + 3 * points, more->points, 3 * (size_t)more->point_count * sizeof *all);
+  for (size_t i = 0; i < 3 * (size_t)more->count; i++)
+    corners[3 * count + i] = more->corners[i] + to->point_count;
+  to->point_count += more->point_count;
+  to->count += more->count;
+  return AMBULO_OK;
+}
+
+/* the points of a mesh in the link's frame; returns its longest side, 0: it cannot be shown */
+static double place(const ambulo__tree_solid *solid, ambulo__mesh *mesh) {
+  double low[3] = {farthest, farthest, farthest}, high[3] = {-farthest, -farthest, -farthest};
+  double longest = 0.0;
+  for (int k = 0; k < mesh->count; k++) {
+    double *p = mesh->points + 3 * (size_t)k, scaled[3];
+    for (int i = 0; i < 3; i++) scaled[i] = solid->scale[i] * p[i];
+    ambulo__rigid_point(&solid->at, scaled, p);
+    for (int i = 0; i < 3; i++) {
+      if (!(fabs(p[i]) < farthest)) return 0.0;
+      low[i] = fmin(low[i], p[i]);
+      high[i] = fmax(high[i], p[i]);
+    }
+  }
+  for (int i = 0; i < 3; i++) longest = fmax(longest, high[i] - low[i]);
+  return longest;
+}
+
+/* reads the mesh of a solid in memory of its own, in silence: feet have said what cannot be read */
+static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid,
+                               ambulo__shell *to) {
+  const ambulo_allocator *a = &tree->arena->allocator;
+  ambulo__arena own = {.allocator = *a};
+  ambulo__xml xml = {.arena = &own};
+  ambulo__tree reader = {.arena = &own, .xml = &xml, .path = tree->path};
+  ambulo__mesh mesh = {.file = solid->mesh->file};
+  ambulo__shell thin = {.points = NULL};
+  ambulo__mesh_read(&reader, &mesh);
+  ambulo_status status = own.failed ? AMBULO_E_MEMORY : AMBULO_OK;
+  double size = !status && mesh.corners ? place(solid, &mesh) : 0.0;
+  if (size > 0.0) {
+    const ambulo__shell all = {mesh.points, mesh.corners, mesh.count, mesh.triangle_count};
+    status = ambulo__shell_coarsen(&all, size / FINEST, a, &thin);
+    if (!status) status = join(a, to, &thin);
+    ambulo__shell_free(a, &thin);
+  }
+  ambulo__arena_free(&own);
+  return status;
+}
+
+static int is_mesh(const ambulo__tree_solid *solid) {
+  return solid->shape == AMBULO__MESH && solid->mesh;
+}
+
+static ambulo_status read_shells(ambulo__tree *tree, ambulo__shell *shells) {
+  ambulo_status status = AMBULO_OK;
+  for (int link = 0; link < tree->link_count && !status; link++) {
+    int seen = 0;
+    for (int i = 0; i < tree->solid_count; i++)
+      seen |= tree->solids[i].link == link && is_mesh(&tree->solids[i]) && tree->solids[i].seen;
+    for (int i = 0; i < tree->solid_count && !status; i++) {
+      const ambulo__tree_solid *solid = &tree->solids[i];
+      if (solid->link == link && is_mesh(solid) && solid->seen == seen)
+        status = add_solid(tree, solid, &shells[link]);
+    }
+  }
+  return status;
+}
+
+/* ----------------------------------------------------------------------- thinning */
+
+static double area_of(const ambulo__shell *shell) {
+  double area = 0.0;
+  for (int t = 0; t < shell->count; t++) {
+    const int *corner = shell->corners + 3 * (size_t)t;
+    const double *p[3];
+    double u[3], v[3], n[3];
+    for (int k = 0; k < 3; k++) p[k] = shell->points + 3 * (size_t)corner[k];
+    for (int i = 0; i < 3; i++) {
+      u[i] = p[1][i] - p[0][i];
+      v[i] = p[2][i] - p[0][i];
+    }
+    for (int i = 0; i < 3; i++) {
+      int j = (i + 1) % 3, k = (i + 2) % 3;
+      n[i] = u[j] * v[k] - u[k] * v[j];
+    }
+    area += 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  }
+  return area;
+}
+
+/* thin[links]: the shells in cells of one size; *count: of triangles */
+static ambulo_status thin_all(const ambulo__shell *shells, int links, double cell,
+                              const ambulo_allocator *a, ambulo__shell *thin, int *count) {
+  ambulo_status status = AMBULO_OK;
+  *count = 0;
+  for (int i = 0; i < links && !status; i++) {
+    ambulo__shell_free(a, &thin[i]);
+    if (shells[i].count) status = ambulo__shell_coarsen(&shells[i], cell, a, &thin[i]);
+    *count += thin[i].count;
+  }
+  return status;
+}
+
+static ambulo_status thin_shells(const ambulo__shell *shells, int links, const ambulo_allocator *a,
+                                 ambulo__shell *thin) {
+  double area = 0.0;
+  int count = 0;
+  for (int i = 0; i < links; i++) {
+    area += area_of(&shells[i]);
+    count += shells[i].count;
+  }
+  double cell = count > MOST ? 0.7 * sqrt(2.0 * area / MOST) : AMBULO__MESHES_UNIT;
+  ambulo_status status = thin_all(shells, links, fmax(cell, AMBULO__MESHES_UNIT), a, thin, &count);
+  for (; !status && count > MOST; cell *= 1.1)
+    status = thin_all(shells, links, 1.1 * cell, a, thin, &count);
+  return status;
+}
+
+/* ----------------------------------------------------------------------- the text */
+
+static void numbers(ambulo__json *json, const char *key, const ambulo__text_buffer *line) {
+  ambulo__json_text(json, key, ambulo__text_data(line));
+}
+
+static void print_shell(ambulo__json *json, const char *link, const ambulo__shell *shell) {
+  long last[3] = {0, 0, 0};
+  int corner = 0;
+  ambulo__text_buffer line;
+  ambulo__text_init_part(&line, json->text);
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_text(json, "link", link);
+  for (size_t i = 0; i < 3 * (size_t)shell->point_count; i++) {
+    long now = lround(shell->points[i] / AMBULO__MESHES_UNIT);
+    ambulo__text_append_format(&line, i ? " %ld" : "%ld", now - last[i % 3]);
+    last[i % 3] = now;
+  }
+  numbers(json, "vertices", &line);
+  ambulo__text_clear(&line);
+  for (size_t i = 0; i < 3 * (size_t)shell->count; i++) {
+    ambulo__text_append_format(&line, i ? " %d" : "%d", shell->corners[i] - corner);
+    corner = shell->corners[i];
+  }
+  numbers(json, "triangles", &line);
+  ambulo__json_close(json, '}');
+  ambulo__text_free(&line);
+}
+
+static void print(const ambulo__tree *tree, const ambulo__shell *thin, ambulo__text_buffer *text) {
+  ambulo__json json = {.text = text, .first = 1};
+  int count = 0;
+  for (int i = 0; i < tree->link_count; i++) count += thin[i].count;
+  if (count == 0) return;
+  ambulo__json_open(&json, NULL, '{');
+  ambulo__json_text(&json, "schema", AMBULO__MESHES_SCHEMA);
+  ambulo__json_open(&json, "meshes", '[');
+  for (int i = 0; i < tree->link_count; i++)
+    if (thin[i].count) print_shell(&json, tree->links[i].name, &thin[i]);
+  ambulo__json_close(&json, ']');
+  ambulo__json_close(&json, '}');
+  ambulo__text_append_char(text, '\n');
+}
+
+ambulo_status ambulo__tree_meshes(ambulo__tree *tree, ambulo__text_buffer *text) {
+  const ambulo_allocator *a = &tree->arena->allocator;
+  size_t links = (size_t)tree->link_count;
+  ambulo__shell *shells = ambulo__alloc(a, 2 * links, sizeof *shells);
+  if (!shells) return AMBULO_E_MEMORY;
+  ambulo_status status = read_shells(tree, shells);
+  if (!status) status = thin_shells(shells, tree->link_count, a, shells + links);
+  if (!status) print(tree, shells + links, text);
+  for (size_t i = 0; i < 2 * links; i++) ambulo__shell_free(a, &shells[i]);
+  ambulo__free(a, shells);
+  return status ? status : ambulo__text_status(text);
+}
