@@ -73,6 +73,7 @@ typedef struct ambulo__tree_solid {
   ambulo__rigid at; /* in the link's frame */
   double size[3];
   int seen;           /* it touches nothing: only seen, counts where nothing else does */
+  int hidden;         /* the format's own program does not show it */
   ambulo__mesh *mesh; /* of a mesh, shared by all that name the file; NULL: no file is named */
   double scale[3];    /* of the mesh's points */
 } ambulo__tree_solid;

@@ -1,8 +1,9 @@
 /* exchange/tree_meshes.c - the meshes of a body, coarse enough for a page (meshes.h).
  *
- * Of a link those count that are only seen, and without any those that touch. Each is read, thinned
- * and forgotten before the next. Then the whole body is made of cells of one size, the finest with
- * at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely as a trunk.
+ * Solids count that the source's own program shows, all of them where it shows none. Each is read,
+ * thinned and forgotten before the next. Then the whole body is made of cells of one size, the finest
+ * with at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely as a
+ * trunk.
  */
 #include "exchange/meshes.h"
 
@@ -13,8 +14,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 16000, FINEST = 64 }; /* triangles; cells along the longest side of a mesh, once read */
+enum { MOST = 24000, FINEST = 64 }; /* triangles; cells along the longest side of a mesh, once read */
 static const double farthest = 1e3; /* m: what is beyond is no part of a body */
+/* of the mass that what is shown must have: less is no body, but feet for contacts, or what is left
+ * where files are missing */
+static const double least_mass = 0.75;
 
 char *ambulo__meshes_path(const ambulo_allocator *allocator, const char *model) {
   static const char *const ends[] = {".yaml", ".yml"};
@@ -70,6 +74,59 @@ static double place(const ambulo__tree_solid *solid, ambulo__mesh *mesh) {
   return longest;
 }
 
+/* a solid of revolution about z, or of four sides: rings of [radius, z] for half axes of 1 */
+static void turn_rings(ambulo__arena *arena, const double (*ring)[2], int rings, int around,
+                       const double half[3], ambulo__mesh *mesh) {
+  const double pi = 3.14159265358979323846;
+  mesh->count = rings * around;
+  mesh->triangle_count = 2 * (rings - 1) * around;
+  mesh->points = ambulo__arena_take(arena, 3 * (size_t)mesh->count, sizeof *mesh->points);
+  mesh->corners = ambulo__arena_take(arena, 3 * (size_t)mesh->triangle_count, sizeof(int));
+  if (!mesh->points || !mesh->corners) return;
+  int *corner = mesh->corners;
+  for (int i = 0; i < rings; i++)
+    for (int k = 0; k < around; k++) {
+      double angle = 2.0 * pi * (k + 0.5) / around, *p = mesh->points + 3 * (i * around + k);
+      int a = i * around + k, b = i * around + (k + 1) % around;
+      const int sides[6] = {a, b, a + around, b, b + around, a + around};
+      p[0] = half[0] * ring[i][0] * cos(angle);
+      p[1] = half[1] * ring[i][0] * sin(angle);
+      p[2] = half[2] * ring[i][1];
+      if (i + 1 == rings) continue;
+      memcpy(corner, sides, sizeof sides);
+      corner += 6;
+    }
+}
+
+/* the surface of a simple solid */
+static void build(ambulo__arena *arena, const ambulo__tree_solid *solid, ambulo__mesh *mesh) {
+  enum { ARC = 6, AROUND = 20 }; /* rings of half a ball; points of a ring */
+  const double edge = 1.41421356237309505, quarter = 1.57079632679489662;
+  const double flat[4][2] = {{0, -1}, {1, -1}, {1, 1}, {0, 1}};
+  const double square[4][2] = {{0, -1}, {edge, -1}, {edge, 1}, {0, 1}};
+  const double *s = solid->size;
+  double ball[2 * ARC][2], round[3] = {s[0], s[0], s[0]};
+  double shift = solid->shape == AMBULO__CAPSULE ? s[1] / s[0] : 0.0;
+  for (int i = 0; i < 2 * ARC; i++) {
+    double angle = quarter * (i < ARC ? (double)i / (ARC - 1) - 1.0 : (double)(i - ARC) / (ARC - 1));
+    ball[i][0] = cos(angle);
+    ball[i][1] = sin(angle) + (i < ARC ? -shift : shift);
+  }
+  if (solid->shape == AMBULO__BOX) {
+    turn_rings(arena, square, 4, 4, s, mesh);
+  } else if (solid->shape == AMBULO__CYLINDER) {
+    round[2] = s[1];
+    turn_rings(arena, flat, 4, AROUND, round, mesh);
+  } else {
+    int ellipsoid = solid->shape == AMBULO__ELLIPSOID;
+    turn_rings(arena, (const double(*)[2])ball, 2 * ARC, AROUND, ellipsoid ? s : round, mesh);
+  }
+}
+
+static int is_mesh(const ambulo__tree_solid *solid) {
+  return solid->shape == AMBULO__MESH;
+}
+
 /* reads the mesh of a solid in memory of its own, in silence: feet have said what cannot be read */
 static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid,
                                ambulo__shell *to) {
@@ -77,11 +134,16 @@ static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *sol
   ambulo__arena own = {.allocator = *a};
   ambulo__xml xml = {.arena = &own};
   ambulo__tree reader = {.arena = &own, .xml = &xml, .path = tree->path};
-  ambulo__mesh mesh = {.file = solid->mesh->file};
+  ambulo__mesh mesh = {.file = solid->mesh ? solid->mesh->file : NULL};
+  ambulo__tree_solid placed = *solid;
   ambulo__shell thin = {.points = NULL};
-  ambulo__mesh_read(&reader, &mesh);
+  for (int i = 0; i < 3 && !is_mesh(solid); i++) placed.scale[i] = 1.0;
+  if (mesh.file)
+    ambulo__mesh_read(&reader, &mesh);
+  else if (!is_mesh(solid))
+    build(&own, solid, &mesh);
   ambulo_status status = own.failed ? AMBULO_E_MEMORY : AMBULO_OK;
-  double size = !status && mesh.corners ? place(solid, &mesh) : 0.0;
+  double size = !status && mesh.corners ? place(&placed, &mesh) : 0.0;
   if (size > 0.0) {
     const ambulo__shell all = {mesh.points, mesh.corners, mesh.count, mesh.triangle_count};
     status = ambulo__shell_coarsen(&all, size / FINEST, a, &thin);
@@ -92,23 +154,27 @@ static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *sol
   return status;
 }
 
-static int is_mesh(const ambulo__tree_solid *solid) {
-  return solid->shape == AMBULO__MESH && solid->mesh;
-}
-
 static ambulo_status read_shells(ambulo__tree *tree, ambulo__shell *shells) {
   ambulo_status status = AMBULO_OK;
-  for (int link = 0; link < tree->link_count && !status; link++) {
-    int seen = 0;
-    for (int i = 0; i < tree->solid_count; i++)
-      seen |= tree->solids[i].link == link && is_mesh(&tree->solids[i]) && tree->solids[i].seen;
-    for (int i = 0; i < tree->solid_count && !status; i++) {
-      const ambulo__tree_solid *solid = &tree->solids[i];
-      if (solid->link == link && is_mesh(solid) && solid->seen == seen)
-        status = add_solid(tree, solid, &shells[link]);
-    }
-  }
+  int some = 0;
+  for (int i = 0; i < tree->solid_count; i++) some |= !tree->solids[i].hidden;
+  for (int i = 0; i < tree->solid_count && !status; i++)
+    if (!some || !tree->solids[i].hidden)
+      status = add_solid(tree, &tree->solids[i], &shells[tree->solids[i].link]);
   return status;
+}
+
+/* share of the body's mass on links that are shown, with what is fixed to them */
+static double mass_shown(const ambulo__tree *tree, const ambulo__shell *shells) {
+  double shown = 0.0, whole = 0.0;
+  for (int i = 0; i < tree->link_count; i++) {
+    int has = 0;
+    for (int k = 0; k < tree->link_count && !has; k++)
+      has = shells[k].count && ambulo__tree_leader(tree, k) == ambulo__tree_leader(tree, i);
+    whole += tree->links[i].body.mass;
+    shown += has ? tree->links[i].body.mass : 0.0;
+  }
+  return whole > 0.0 ? shown / whole : 0.0;
 }
 
 /* ----------------------------------------------------------------------- thinning */
@@ -208,10 +274,12 @@ static void print(const ambulo__tree *tree, const ambulo__shell *thin, ambulo__t
 ambulo_status ambulo__tree_meshes(ambulo__tree *tree, ambulo__text_buffer *text) {
   const ambulo_allocator *a = &tree->arena->allocator;
   size_t links = (size_t)tree->link_count;
+  if (strcmp(tree->format, "OpenSim") == 0) return AMBULO_OK; /* its solids are for contacts alone */
   ambulo__shell *shells = ambulo__alloc(a, 2 * links, sizeof *shells);
   if (!shells) return AMBULO_E_MEMORY;
   ambulo_status status = read_shells(tree, shells);
-  if (!status) status = thin_shells(shells, tree->link_count, a, shells + links);
+  int enough = !status && mass_shown(tree, shells) >= least_mass;
+  if (enough) status = thin_shells(shells, tree->link_count, a, shells + links);
   if (!status) print(tree, shells + links, text);
   for (size_t i = 0; i < 2 * links; i++) ambulo__shell_free(a, &shells[i]);
   ambulo__free(a, shells);
