@@ -1,12 +1,12 @@
-/* exchange/foot_collada.c - vertices and triangles of a COLLADA file (.dae), placed as its scene says
- * (body_tree.h).
+/* exchange/foot_collada.c - vertices and triangles of a COLLADA file (.dae), placed as its scene
+ * says (body_tree.h).
  *
  * <node>s of <visual_scene> hold <matrix>, <translate>, <rotate> and <scale>, each applied to what
  * stands after it, and <instance_geometry url="#ID">. Of that <geometry> the <float_array> counts
- * that the input POSITION of its <vertices> names. <triangles>, <polylist> and <polygons> list their
- * vertices in <p>, at the offset of the input VERTEX among as many numbers as there are offsets; how
- * many make a face is 3, what <vcount> says, and all of a <p>. Lengths are <unit meter>, and what goes up by
- * <up_axis> goes along z here.
+ * that the input POSITION of its <vertices> names. <triangles>, <polylist> and <polygons> list
+ * their vertices in <p>, at the offset of the input VERTEX among as many numbers as there are
+ * offsets; how many make a face is 3, what <vcount> says, and all of a <p>. Lengths are <unit
+ * meter>, and what goes up by <up_axis> goes along z here.
  */
 #include "exchange/body_tree.h"
 

@@ -1,5 +1,5 @@
-/* exchange/foot_meshes.c - vertices and triangles of meshes, as far as feet and the page ask for them
- * (body_tree.h). */
+/* exchange/foot_meshes.c - vertices and triangles of meshes, as far as feet and the page ask for
+ * them (body_tree.h). */
 #include "exchange/body_tree.h"
 
 #include "base/numtext.h"
@@ -233,8 +233,7 @@ void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh) {
   mesh->tried = 1;
   char *path = find(a, tree->path, mesh->file);
   if (is_collada(path)) {
-    size_t count =
-        ambulo__collada_read(tree->arena, path, most_points - tree->mesh_points, mesh);
+    size_t count = ambulo__collada_read(tree->arena, path, most_points - tree->mesh_points, mesh);
     if (!is_too_much(tree, mesh, count)) tree->mesh_points += count;
     ambulo__free(a, path);
     return;

@@ -199,8 +199,8 @@ static ambulo_status write_both(const char *output, const char *beside, const ch
   int was_there = beside && access(beside, F_OK) == 0, shown = meshes->length > 0;
   if (shown) status = ambulo__output_check(beside, &source, 1, overwrite, diagnostics);
   if (shown && !status)
-    status = ambulo__write_file(beside, ambulo__text_data(meshes), meshes->length, 1, a,
-                                diagnostics);
+    status =
+        ambulo__write_file(beside, ambulo__text_data(meshes), meshes->length, 1, a, diagnostics);
   if (!status)
     status = ambulo__write_file(output, ambulo__text_data(text), text->length, 1, a, diagnostics);
   int stale = !shown && was_there && overwrite &&
@@ -229,8 +229,7 @@ ambulo_status ambulo_import_model(const char *path, const char *output,
   if (!status)
     status = import_text(path, options, allocator, diagnostics, &buffer, beside ? &meshes : NULL);
   if (!status && output)
-    status =
-        write_both(output, beside, path, options->overwrite, &buffer, &meshes, diagnostics);
+    status = write_both(output, beside, path, options->overwrite, &buffer, &meshes, diagnostics);
   if (!status && !output) {
     char *copy = ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
     if (copy) *text = copy;

@@ -1,20 +1,22 @@
 /* exchange/tree_meshes.c - the meshes of a body, coarse enough for a page (meshes.h).
  *
  * Solids count that the source's own program shows, all of them where it shows none. Each is read,
- * thinned and forgotten before the next. Then the whole body is made of cells of one size, the finest
- * with at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely as a
- * trunk.
+ * thinned and forgotten before the next. Then the whole body is made of cells of one size, the
+ * finest with at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely
+ * as a trunk.
  */
 #include "exchange/meshes.h"
 
 #include "exchange/body_tree.h"
 #include "formats/json_text.h"
-#include "formats/paths.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 24000, FINEST = 64 }; /* triangles; cells along the longest side of a mesh, once read */
+enum {
+  MOST = 30000,
+  FINEST = 96
+}; /* triangles; cells along the longest side of a mesh, once read */
 static const double farthest = 1e3; /* m: what is beyond is no part of a body */
 /* of the mass that what is shown must have: less is no body, but feet for contacts, or what is left
  * where files are missing */
@@ -40,12 +42,12 @@ char *ambulo__meshes_path(const ambulo_allocator *allocator, const char *model) 
 /* appends one shell to another */
 static ambulo_status join(const ambulo_allocator *a, ambulo__shell *to, const ambulo__shell *more) {
   size_t points = (size_t)to->point_count, count = (size_t)to->count;
-  double *all = ambulo__realloc(a, to->points, 3 * (points + (size_t)more->point_count) + 1,
-                                sizeof *all);
+  double *all =
+      ambulo__realloc(a, to->points, 3 * (points + (size_t)more->point_count) + 1, sizeof *all);
   if (!all) return AMBULO_E_MEMORY;
   to->points = all;
-  int *corners = ambulo__realloc(a, to->corners, 3 * (count + (size_t)more->count) + 1,
-                                 sizeof *corners);
+  int *corners =
+      ambulo__realloc(a, to->corners, 3 * (count + (size_t)more->count) + 1, sizeof *corners);
   if (!corners) return AMBULO_E_MEMORY;
   to->corners = corners;
   memcpy(all + 3 * points, more->points, 3 * (size_t)more->point_count * sizeof *all);
@@ -108,7 +110,8 @@ static void build(ambulo__arena *arena, const ambulo__tree_solid *solid, ambulo_
   double ball[2 * ARC][2], round[3] = {s[0], s[0], s[0]};
   double shift = solid->shape == AMBULO__CAPSULE ? s[1] / s[0] : 0.0;
   for (int i = 0; i < 2 * ARC; i++) {
-    double angle = quarter * (i < ARC ? (double)i / (ARC - 1) - 1.0 : (double)(i - ARC) / (ARC - 1));
+    double angle =
+        quarter * (i < ARC ? (double)i / (ARC - 1) - 1.0 : (double)(i - ARC) / (ARC - 1));
     ball[i][0] = cos(angle);
     ball[i][1] = sin(angle) + (i < ARC ? -shift : shift);
   }
@@ -177,6 +180,20 @@ static double mass_shown(const ambulo__tree *tree, const ambulo__shell *shells) 
   return whole > 0.0 ? shown / whole : 0.0;
 }
 
+/* that meshes are missing, where some were there */
+static void warn(const ambulo__tree *tree, double shown) {
+  int meshes = 0;
+  for (int i = 0; i < tree->solid_count; i++)
+    meshes += is_mesh(&tree->solids[i]) && tree->solids[i].mesh && !tree->solids[i].hidden;
+  if (!meshes) return;
+  ambulo__place place = {.file = tree->path};
+  ambulo__warning(tree->xml->diagnostics, place,
+                  "put the files of meshes where the model names them",
+                  "the page will not show meshes: those that can be read (STL, OBJ, COLLADA) show "
+                  "%.0f %% of the mass, expected at least %.0f %%",
+                  100.0 * shown, 100.0 * least_mass);
+}
+
 /* ----------------------------------------------------------------------- thinning */
 
 static double area_of(const ambulo__shell *shell) {
@@ -229,10 +246,6 @@ static ambulo_status thin_shells(const ambulo__shell *shells, int links, const a
 
 /* ----------------------------------------------------------------------- the text */
 
-static void numbers(ambulo__json *json, const char *key, const ambulo__text_buffer *line) {
-  ambulo__json_text(json, key, ambulo__text_data(line));
-}
-
 static void print_shell(ambulo__json *json, const char *link, const ambulo__shell *shell) {
   long last[3] = {0, 0, 0};
   int corner = 0;
@@ -245,13 +258,13 @@ static void print_shell(ambulo__json *json, const char *link, const ambulo__shel
     ambulo__text_append_format(&line, i ? " %ld" : "%ld", now - last[i % 3]);
     last[i % 3] = now;
   }
-  numbers(json, "vertices", &line);
+  ambulo__json_text(json, "vertices", ambulo__text_data(&line));
   ambulo__text_clear(&line);
   for (size_t i = 0; i < 3 * (size_t)shell->count; i++) {
     ambulo__text_append_format(&line, i ? " %d" : "%d", shell->corners[i] - corner);
     corner = shell->corners[i];
   }
-  numbers(json, "triangles", &line);
+  ambulo__json_text(json, "triangles", ambulo__text_data(&line));
   ambulo__json_close(json, '}');
   ambulo__text_free(&line);
 }
@@ -274,12 +287,14 @@ static void print(const ambulo__tree *tree, const ambulo__shell *thin, ambulo__t
 ambulo_status ambulo__tree_meshes(ambulo__tree *tree, ambulo__text_buffer *text) {
   const ambulo_allocator *a = &tree->arena->allocator;
   size_t links = (size_t)tree->link_count;
-  if (strcmp(tree->format, "OpenSim") == 0) return AMBULO_OK; /* its solids are for contacts alone */
+  if (strcmp(tree->format, "OpenSim") == 0)
+    return AMBULO_OK; /* its solids are for contacts alone */
   ambulo__shell *shells = ambulo__alloc(a, 2 * links, sizeof *shells);
   if (!shells) return AMBULO_E_MEMORY;
   ambulo_status status = read_shells(tree, shells);
-  int enough = !status && mass_shown(tree, shells) >= least_mass;
-  if (enough) status = thin_shells(shells, tree->link_count, a, shells + links);
+  double shown = status ? 0.0 : mass_shown(tree, shells);
+  if (shown > 0.0 && shown < least_mass) warn(tree, shown);
+  if (shown >= least_mass) status = thin_shells(shells, tree->link_count, a, shells + links);
   if (!status) print(tree, shells + links, text);
   for (size_t i = 0; i < 2 * links; i++) ambulo__shell_free(a, &shells[i]);
   ambulo__free(a, shells);

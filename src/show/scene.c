@@ -257,8 +257,8 @@ static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s, const 
     status = ambulo__scene_worn(json, s, &body);
     if (!status) status = ambulo__scene_points(json, &body);
     if (!status)
-      status = ambulo__scene_meshes(json, &body,
-                                    inputs ? inputs : ambulo_problem_inputs(s->problem));
+      status =
+          ambulo__scene_meshes(json, &body, inputs ? inputs : ambulo_problem_inputs(s->problem));
   }
   ambulo__scene_body_free(&body);
   return status;

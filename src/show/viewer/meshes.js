@@ -27,6 +27,16 @@ export class Meshes {
     });
   }
 
+  // height of the highest vertex as posed: heads reach above the last joint
+  top() {
+    let high = -Infinity;
+    for (const { mesh } of this.parts) {
+      mesh.geometry.computeBoundingBox();
+      high = Math.max(high, mesh.geometry.boundingBox.clone().applyMatrix4(mesh.matrix).max.y);
+    }
+    return high;
+  }
+
   pose(where) {
     for (const { mesh, frame } of this.parts) {
       placeAt(frame[0], where, origin);

@@ -164,7 +164,8 @@ export class Stage {
         });
       }
     }
-    const [rear, front, low, high] = ends;
+    const [rear, front, low, high] = [ends[0], ends[1], ends[2],
+      Math.max(ends[3], this.actor.figure.meshes?.top() ?? ends[3])];
     if (this.data.ground.is_there) return { low, high, height: Math.max(high - low, 0.6) };
     return { low, high, height: Math.max(high - low, front - rear, 0.3), middle: (rear + front) / 2 };
   }
