@@ -223,9 +223,11 @@ ambulo_status ambulo_import_model(const char *path, const char *output,
   ambulo__text_buffer buffer, meshes;
   ambulo__text_init(&buffer, allocator);
   ambulo__text_init(&meshes, allocator);
-  char *beside = output ? ambulo__meshes_path(&buffer.allocator, output) : NULL;
-  ambulo_status status = AMBULO_OK;
-  if (output) status = ambulo__output_check(output, &path, 1, options->overwrite, diagnostics);
+  char *beside = NULL;
+  ambulo_status status =
+      output ? ambulo__meshes_path(&buffer.allocator, output, &beside) : AMBULO_OK;
+  if (!status && output)
+    status = ambulo__output_check(output, &path, 1, options->overwrite, diagnostics);
   if (!status)
     status = import_text(path, options, allocator, diagnostics, &buffer, beside ? &meshes : NULL);
   if (!status && output)

@@ -18,9 +18,10 @@
 
 typedef struct ambulo__tree ambulo__tree;
 
-/* The path of the meshes of a model file; NULL: its name does not end in .yaml or .yml, or no
- * memory. */
-char *ambulo__meshes_path(const ambulo_allocator *allocator, const char *model);
+/* *path: of the meshes of a model file, to be freed; NULL: its name does not end in .yaml or .yml.
+ * Errors: E_MEMORY. */
+ambulo_status ambulo__meshes_path(const ambulo_allocator *allocator, const char *model,
+                                  char **path);
 
 /* The file of a tree's meshes; nothing is appended where there are none that can be read. */
 ambulo_status ambulo__tree_meshes(ambulo__tree *tree, ambulo__text_buffer *text);

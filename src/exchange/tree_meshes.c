@@ -1,7 +1,6 @@
 /* exchange/tree_meshes.c - the meshes of a body, coarse enough for a page (meshes.h).
  *
- * Solids count that the source's own program shows, all of them where it shows none. Each is read,
- * thinned and forgotten before the next. Then the whole body is made of cells of one size, the
+ * Each solid that is shown is read, thinned and forgotten before the next. Then the whole body is made of cells of one size, the
  * finest with at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely
  * as a trunk.
  */
@@ -22,19 +21,21 @@ static const double farthest = 1e3; /* m: what is beyond is no part of a body */
  * where files are missing */
 static const double least_mass = 0.75;
 
-char *ambulo__meshes_path(const ambulo_allocator *allocator, const char *model) {
+ambulo_status ambulo__meshes_path(const ambulo_allocator *allocator, const char *model,
+                                  char **path) {
   static const char *const ends[] = {".yaml", ".yml"};
   size_t length = strlen(model);
+  *path = NULL;
   for (int i = 0; i < 2; i++) {
     size_t end = strlen(ends[i]);
     if (length <= end || strcmp(model + length - end, ends[i]) != 0) continue;
-    char *path = ambulo__alloc(allocator, length + sizeof ".meshes", 1);
-    if (!path) return NULL;
-    memcpy(path, model, length - end);
-    memcpy(path + length - end, ".meshes", sizeof ".meshes");
-    return path;
+    *path = ambulo__alloc(allocator, length + sizeof ".meshes", 1);
+    if (!*path) return AMBULO_E_MEMORY;
+    memcpy(*path, model, length - end);
+    memcpy(*path + length - end, ".meshes", sizeof ".meshes");
+    return AMBULO_OK;
   }
-  return NULL;
+  return AMBULO_OK;
 }
 
 /* ------------------------------------------------------------------------ reading */
@@ -157,12 +158,22 @@ static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *sol
   return status;
 }
 
+/* 1 for what the source's own program shows, all of it where it shows nothing: but for what stands
+ * for a mesh in contacts, on a link with a mesh that is only seen */
+static int is_shown(const ambulo__tree *tree, const ambulo__tree_solid *solid) {
+  int some = 0, skinned = 0;
+  for (int i = 0; i < tree->solid_count; i++) {
+    const ambulo__tree_solid *other = &tree->solids[i];
+    some |= !other->hidden;
+    skinned |= other->link == solid->link && !other->hidden && other->seen && is_mesh(other);
+  }
+  return some ? !solid->hidden && (solid->seen || !skinned) : 1;
+}
+
 static ambulo_status read_shells(ambulo__tree *tree, ambulo__shell *shells) {
   ambulo_status status = AMBULO_OK;
-  int some = 0;
-  for (int i = 0; i < tree->solid_count; i++) some |= !tree->solids[i].hidden;
   for (int i = 0; i < tree->solid_count && !status; i++)
-    if (!some || !tree->solids[i].hidden)
+    if (is_shown(tree, &tree->solids[i]))
       status = add_solid(tree, &tree->solids[i], &shells[tree->solids[i].link]);
   return status;
 }

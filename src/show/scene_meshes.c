@@ -16,27 +16,30 @@
 /* A point along each axis tells where that points: as far as this, in m, to within its rounding. */
 static const double reach = 0.3;
 
-/* the meshes beside one input; NULL: there are none that can be read */
-static ambulo__yaml *load(const char *input, size_t length, const ambulo_allocator *a) {
+/* the meshes beside one input; *document stays NULL where there are none that can be read. Errors:
+ * E_MEMORY. */
+static ambulo_status load(const char *input, size_t length, const ambulo_allocator *a,
+                          ambulo__yaml **document) {
   char *model = ambulo__alloc(a, length + 1, 1), *path = NULL, *text = NULL;
-  ambulo__yaml *document = NULL;
+  ambulo_status status = model ? AMBULO_OK : AMBULO_E_MEMORY;
   size_t size = 0;
   if (model) {
     memcpy(model, input, length);
-    path = ambulo__meshes_path(a, model);
+    status = ambulo__meshes_path(a, model, &path);
   }
-  if (path && ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, a, NULL, &text, &size) == AMBULO_OK)
-    (void)ambulo__yaml_load_text(text, size, path, a, NULL, &document);
-  const ambulo__yaml_node *root = document ? ambulo__yaml_root(document) : NULL;
-  const ambulo__yaml_node *schema = root ? ambulo__yaml_get(root, "schema") : NULL;
-  if (document && (!schema || strcmp(ambulo__yaml_text(schema), AMBULO__MESHES_SCHEMA) != 0)) {
-    ambulo__yaml_free(document);
-    document = NULL;
+  if (path) status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, a, NULL, &text, &size);
+  if (text) status = ambulo__yaml_load_text(text, size, path, a, NULL, document);
+  const ambulo__yaml_node *root = *document ? ambulo__yaml_root(*document) : NULL;
+  const ambulo__yaml_node *schema =
+      ambulo__yaml_is(root, AMBULO__YAML_MAPPING) ? ambulo__yaml_get(root, "schema") : NULL;
+  if (*document && (!schema || strcmp(ambulo__yaml_text(schema), AMBULO__MESHES_SCHEMA) != 0)) {
+    ambulo__yaml_free(*document);
+    *document = NULL;
   }
   ambulo__free(a, text);
   ambulo__free(a, path);
   ambulo__free(a, model);
-  return document;
+  return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
 }
 
 /* origin, and the points along x and y, of a link: nine numbers at each time */
@@ -84,15 +87,16 @@ ambulo_status ambulo__scene_meshes(ambulo__json *json, ambulo__scene_body *body,
                                    const char *inputs) {
   const ambulo_allocator *a = &body->allocator;
   ambulo__yaml *document = NULL;
+  ambulo_status status = AMBULO_OK;
   char digest[AMBULO__SHA256_TEXT];
   const char *path;
   size_t length;
-  while (!document && ambulo__inputs_next(&inputs, digest, &path, &length))
-    document = load(path, length, a);
-  if (!document) return AMBULO_OK;
+  while (!document && !status && ambulo__inputs_next(&inputs, digest, &path, &length))
+    status = load(path, length, a, &document);
+  if (!document) return status;
   const ambulo__yaml_node *list = ambulo__yaml_get(ambulo__yaml_root(document), "meshes");
   double *place = ambulo__alloc(a, 9 * (size_t)body->samples, sizeof *place);
-  ambulo_status status = place ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!place) status = AMBULO_E_MEMORY;
   ambulo__json_open(json, "meshes", '[');
   for (int i = 0; !status && list && i < ambulo__yaml_items(list); i++)
     if (ambulo__yaml_is(ambulo__yaml_item(list, i), AMBULO__YAML_MAPPING))
