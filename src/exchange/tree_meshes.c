@@ -1,8 +1,8 @@
 /* exchange/tree_meshes.c - the meshes of a body, coarse enough for a page (meshes.h).
  *
- * Each solid that is shown is read, thinned and forgotten before the next. Then the whole body is made of cells of one size, the
- * finest with at most MOST triangles: about 2 A / cell^2 of an area A. So a hand is drawn as finely
- * as a trunk.
+ * Each solid that is shown is read, thinned and forgotten before the next. Then the whole body is
+ * made of cells of one size, the finest with at most MOST triangles: about 2 A / cell^2 of an area
+ * A. So a hand is drawn as finely as a trunk.
  */
 #include "exchange/meshes.h"
 

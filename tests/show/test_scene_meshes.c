@@ -12,15 +12,18 @@
   "ambulo: 1\nkind: model\nname: rods\nunits: {angle: degrees}\nlinks:\n"                          \
   "  - {name: rod, parent: none, joint: revolute, dh: [-90, 0, 1, 0],\n"                           \
   "     body: {mass: 3, com: [-0.5, 0, 0], inertia: [0, 0.25, 0.25, 0, 0, 0]}}\n"                  \
-  "  - {name: end, parent: rod, joint: revolute, origin: {xyz: [.1, .2, .3], rpy: [10, 20, 30]},\n" \
+  "  - {name: end, parent: rod, joint: revolute, origin: {xyz: [.1, .2, .3], rpy: [10, 20, "       \
+  "30]},\n"                                                                                        \
   "     axis: [0, 1, 0], body: {mass: 3, com: [-0.5, 0, 0], inertia: [.1, .25, .25, 0, 0, 0]}}\n"  \
   "points:\n  - {name: o, link: end, position: [0, 0, 0]}\n"                                       \
-  "  - {name: x, link: end, position: [.3, 0, 0]}\n  - {name: y, link: end, position: [0, .3, 0]}\n"
+  "  - {name: x, link: end, position: [.3, 0, 0]}\n  - {name: y, link: end, position: [0, .3, "    \
+  "0]}\n"
 #define PROBLEM                                                                                    \
   "ambulo: 1\nkind: problem\nname: swing\nmodel: rods.yaml\ntime: {duration: 1, intervals: 6}\n"   \
   "objective: [{term: acceleration, weight: 1}]\n"
-#define MESH(link) "{\"link\": \"" link "\", \"vertices\": \"0 0 0 10 0 0 -10 10 0\", "            \
-                   "\"triangles\": \"0 1 1\"}"
+#define MESH(link)                                                                                 \
+  "{\"link\": \"" link "\", \"vertices\": \"0 0 0 10 0 0 -10 10 0\", "                             \
+  "\"triangles\": \"0 1 1\"}"
 #define MESHES(list) "{\"schema\": \"ambulo-meshes/1\", \"meshes\": [" list "]}"
 
 typedef struct scene {
@@ -65,10 +68,12 @@ static void frames_are_where_the_mechanics_has_them(void **state) {
   yaml_case c = read_scene(&s, NULL);
   ambulo__page_check_scene(c.root);
   const ambulo__yaml_node *list = ambulo__yaml_get(c.root, "meshes");
-  assert_int_equal(ambulo__yaml_items(list), 1); /* the one whose link is there, with all its parts */
+  assert_int_equal(ambulo__yaml_items(list),
+                   1); /* the one whose link is there, with all its parts */
   const ambulo__yaml_node *mesh = ambulo__yaml_item(list, 0);
   assert_string_equal(ambulo__yaml_text(ambulo__yaml_get(mesh, "link")), "end");
-  assert_string_equal(ambulo__yaml_text(ambulo__yaml_get(mesh, "vertices")), "0 0 0 10 0 0 -10 10 0");
+  assert_string_equal(ambulo__yaml_text(ambulo__yaml_get(mesh, "vertices")),
+                      "0 0 0 10 0 0 -10 10 0");
   assert_string_equal(ambulo__yaml_text(ambulo__yaml_get(mesh, "triangles")), "0 1 1");
   ambulo__stride stride;
   ambulo_mechanics *mechanics = NULL;
@@ -88,7 +93,8 @@ static void frames_are_where_the_mechanics_has_them(void **state) {
       for (int k = 0; k < stride.samples; k += 13) {
         double got = scene_value(ambulo__yaml_item(ambulo__yaml_item(frame, e), i), k, 1e-4);
         assert_close(got, dot(axes[i], place + 9 * k + 3 * e), 0.51e-4);
-        moves = fmax(moves, fabs(dot(axes[i], place + 9 * k + 3 * e) - dot(axes[i], place + 3 * e)));
+        moves =
+            fmax(moves, fabs(dot(axes[i], place + 9 * k + 3 * e) - dot(axes[i], place + 3 * e)));
       }
   assert_true(moves > 0.1);
   free(place);
@@ -100,8 +106,8 @@ static void frames_are_where_the_mechanics_has_them(void **state) {
 
 /* a scene is one without meshes, too; other inputs than the problem's have other ones */
 static void without_them(void **state) {
-  static const char *const files[] = {NULL, "", "{", "[1, 2]", "{\"schema\": \"other\"}",
-                                      "{\"meshes\": []}"};
+  static const char *const files[] = {
+      NULL, "", "{", "[1, 2]", "{\"schema\": \"other\"}", "{\"meshes\": []}"};
   for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
     scene s = open_scene(state, files[i]);
     yaml_case c = read_scene(&s, NULL);
