@@ -26,6 +26,7 @@ typedef struct ambulo__mesh {
   int tried;
   double *points; /* [count][3]; NULL: not read, or nothing to read */
   int count;
+  int whole;    /* 1: triangles are asked for */
   int *corners; /* [triangle_count][3], numbers of points; NULL: not known */
   int triangle_count;
 } ambulo__mesh;

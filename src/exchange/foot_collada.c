@@ -221,7 +221,7 @@ size_t ambulo__collada_read(ambulo__arena *arena, const char *path, size_t most,
   if (root) take_scene(&c, root);
   size_t found = c.count, corners = c.corner_count;
   if (found > 0 && found <= most) c.points = ambulo__arena_take(arena, 3 * found, sizeof *c.points);
-  if (c.points && corners > 0 && corners <= 8 * most)
+  if (mesh->whole && c.points && corners > 0 && corners <= 8 * most)
     c.corners = ambulo__arena_take(arena, corners, sizeof *c.corners);
   if (c.points) {
     take_scene(&c, root);

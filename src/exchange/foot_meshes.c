@@ -131,7 +131,7 @@ static int read_faces(ambulo__mesh *mesh, const char *text) {
 /* a vertex that is no number was left out: then no number of a vertex is what it was */
 static void read_triangles(ambulo__arena *arena, ambulo__mesh *mesh, const char *text, int is_stl,
                            size_t count) {
-  if ((size_t)mesh->count != count) return;
+  if (!mesh->whole || (size_t)mesh->count != count) return;
   if (is_stl) {
     if (count % 3 == 0) three_by_three(arena, mesh, count);
     return;

@@ -138,7 +138,7 @@ static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *sol
   ambulo__arena own = {.allocator = *a};
   ambulo__xml xml = {.arena = &own};
   ambulo__tree reader = {.arena = &own, .xml = &xml, .path = tree->path};
-  ambulo__mesh mesh = {.file = solid->mesh ? solid->mesh->file : NULL};
+  ambulo__mesh mesh = {.file = solid->mesh ? solid->mesh->file : NULL, .whole = 1};
   ambulo__tree_solid placed = *solid;
   ambulo__shell thin = {.points = NULL};
   for (int i = 0; i < 3 && !is_mesh(solid); i++) placed.scale[i] = 1.0;
