@@ -26,6 +26,9 @@ typedef struct ambulo__mesh {
   int tried;
   double *points; /* [count][3]; NULL: not read, or nothing to read */
   int count;
+  int whole;    /* 1: triangles are asked for */
+  int *corners; /* [triangle_count][3], numbers of points; NULL: not known */
+  int triangle_count;
 } ambulo__mesh;
 
 /* A function of a coordinate: the spline through points, or without any the polynomial. */
@@ -71,6 +74,7 @@ typedef struct ambulo__tree_solid {
   ambulo__rigid at; /* in the link's frame */
   double size[3];
   int seen;           /* it touches nothing: only seen, counts where nothing else does */
+  int hidden;         /* the format's own program does not show it */
   ambulo__mesh *mesh; /* of a mesh, shared by all that name the file; NULL: no file is named */
   double scale[3];    /* of the mesh's points */
 } ambulo__tree_solid;
@@ -226,17 +230,17 @@ ambulo__rigid ambulo__tree_pose_of(const ambulo__tree *tree, int link, int start
 /* Mass, centre of mass and inertia of a link and all that is fixed to it, in its frame. */
 void ambulo__tree_whole(const ambulo__tree *tree, int leader, ambulo__part *body);
 
-/* ----------------- solids of feet (foot_meshes.c, foot_collada.c, foot_solids.c) */
+/* ------------ meshes, and solids of feet (foot_meshes.c, foot_collada.c, foot_solids.c) */
 
 /* The mesh of a solid, at its own size. None without memory, or where `file` is NULL or empty. */
 void ambulo__tree_mesh(ambulo__tree *tree, const char *file, ambulo__tree_solid *solid);
 /* Reads the points of a mesh, once; it has none where that cannot be. */
 void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh);
 
-/* The vertices of a COLLADA file, [*count][3] in the arena; untouched where there are none, or more
- * than `most`. Returns how many it has. */
-size_t ambulo__collada_points(ambulo__arena *arena, const char *path, size_t most, double **points,
-                              int *count);
+/* The vertices and triangles of a COLLADA file, in the arena; the mesh is untouched where there are
+ * none, or more than `most`. Returns how many vertices it has. */
+size_t ambulo__collada_read(ambulo__arena *arena, const char *path, size_t most,
+                            ambulo__mesh *mesh);
 
 /* Where the solids of a link touch the ground. */
 typedef struct ambulo__sole {

@@ -1,16 +1,20 @@
-/* exchange/foot_collada.c - vertices of a COLLADA file (.dae), placed as its scene says
- * (body_tree.h).
+/* exchange/foot_collada.c - vertices and triangles of a COLLADA file (.dae), placed as its scene
+ * says (body_tree.h).
  *
  * <node>s of <visual_scene> hold <matrix>, <translate>, <rotate> and <scale>, each applied to what
  * stands after it, and <instance_geometry url="#ID">. Of that <geometry> the <float_array> counts
- * that the input POSITION of its <vertices> names. Lengths are <unit meter>, and what goes up by
- * <up_axis> goes along z here.
+ * that the input POSITION of its <vertices> names. <triangles>, <polylist> and <polygons> list
+ * their vertices in <p>, at the offset of the input VERTEX among as many numbers as there are
+ * offsets; how many make a face is 3, what <vcount> says, and all of a <p>. Lengths are <unit
+ * meter>, and what goes up by <up_axis> goes along z here.
  */
 #include "exchange/body_tree.h"
 
 #include "base/numtext.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 enum { MOST_INSTANCES = 4096 }; /* more than a foot has parts */
@@ -24,6 +28,8 @@ typedef struct collada {
   const ambulo__xml_node *geometries;
   double *points; /* NULL: they are counted */
   size_t count, most;
+  int *corners; /* NULL: they are counted */
+  size_t corner_count;
   int instances;
 } collada;
 
@@ -87,7 +93,70 @@ static void take_points(collada *c, const char *text, const affine *place) {
   }
 }
 
+/* the next whole number of a text; 0: there is none */
+static int next_number(const char **at, long *number) {
+  double value;
+  *at += strspn(*at, " \t\r\n");
+  size_t digits = strcspn(*at, " \t\r\n");
+  if (digits == 0 || !ambulo__parse_double(*at, digits, &value) || !(fabs(value) < 1e9)) return 0;
+  *at += digits;
+  *number = (long)value;
+  return 1;
+}
+
+/* how many numbers belong to a corner, and which of them is its vertex; 0: none is */
+static long stride_of(const ambulo__xml_node *faces, long *vertex) {
+  long most = -1;
+  *vertex = -1;
+  AMBULO__XML_EACH (input, faces, "input") {
+    const char *what = ambulo__xml_attribute(input, "semantic");
+    const char *text = ambulo__xml_attribute(input, "offset");
+    long offset;
+    if (!what || !text || !next_number(&text, &offset) || offset < 0 || offset > 64) continue;
+    if (offset > most) most = offset;
+    if (strcmp(what, "VERTEX") == 0) *vertex = offset;
+  }
+  return *vertex < 0 ? 0 : most + 1;
+}
+
+/* the faces of one <p>, as fans, of vertices from `first` on; those that do not exist end it */
+static void take_faces(collada *c, const char *at, const char *sizes, int is_one, long stride,
+                       long vertex, size_t first) {
+  long size = is_one ? LONG_MAX : 3, number;
+  while (!sizes || next_number(&sizes, &size)) {
+    size_t corner[3] = {0, 0, 0};
+    for (long k = 0; k < size; k++) {
+      size_t now = SIZE_MAX;
+      for (long i = 0; i < stride; i++) {
+        if (!next_number(&at, &number)) return;
+        if (i == vertex && number >= 0) now = first + (size_t)number;
+      }
+      if (now >= c->count) return;
+      corner[k < 2 ? k : 2] = now;
+      if (k < 2) continue;
+      for (int v = 0; v < 3 && c->corners; v++)
+        c->corners[c->corner_count + (size_t)v] = (int)corner[v];
+      c->corner_count += 3;
+      corner[1] = now;
+    }
+  }
+}
+
+static void take_triangles(collada *c, const ambulo__xml_node *mesh, size_t first) {
+  static const char *const kinds[] = {"triangles", "polylist", "polygons"};
+  long vertex;
+  for (int kind = 0; kind < 3; kind++)
+    AMBULO__XML_EACH (faces, mesh, kinds[kind]) {
+      const ambulo__xml_node *sizes = ambulo__xml_child(faces, "vcount");
+      long stride = stride_of(faces, &vertex);
+      AMBULO__XML_EACH (p, faces, "p")
+        if (stride && (kind != 1 || sizes))
+          take_faces(c, p->text, kind == 1 ? sizes->text : NULL, kind == 2, stride, vertex, first);
+    }
+}
+
 static void take_geometry(collada *c, const char *reference, const affine *place) {
+  size_t first = c->count;
   if (c->instances++ >= MOST_INSTANCES) return;
   const ambulo__xml_node *geometry = referred(c->geometries, "geometry", reference);
   const ambulo__xml_node *mesh = ambulo__xml_child(geometry, "mesh");
@@ -99,6 +168,7 @@ static void take_geometry(collada *c, const char *reference, const affine *place
     const ambulo__xml_node *numbers = ambulo__xml_child(source, "float_array");
     if (numbers) take_points(c, numbers->text, place);
   }
+  take_triangles(c, mesh, first);
 }
 
 /* levels of nodes are at most those of the document */
@@ -124,7 +194,7 @@ static void take_scene(collada *c, const ambulo__xml_node *root) {
     place = y ? (affine){{{unit, 0, 0, 0}, {0, 0, -unit, 0}, {0, unit, 0, 0}}}
               : (affine){{{0, 0, -unit, 0}, {0, unit, 0, 0}, {unit, 0, 0, 0}}};
   }
-  c->count = 0;
+  c->count = c->corner_count = 0;
   c->instances = 0;
   AMBULO__XML_EACH (scene, ambulo__xml_child(root, "library_visual_scenes"), "visual_scene")
     take_node(c, scene, place);
@@ -141,20 +211,27 @@ static int finite_ones(double *points, size_t count) {
   return (int)kept;
 }
 
-size_t ambulo__collada_points(ambulo__arena *arena, const char *path, size_t most, double **points,
-                              int *count) {
+size_t ambulo__collada_read(ambulo__arena *arena, const char *path, size_t most,
+                            ambulo__mesh *mesh) {
   ambulo__arena own = {.allocator = arena->allocator};
   ambulo__xml xml = {.arena = &own};
   collada c = {.xml = &xml, .most = most};
   const ambulo__xml_node *root = ambulo__xml_load(&xml, path);
   c.geometries = ambulo__xml_child(root, "library_geometries");
   if (root) take_scene(&c, root);
-  size_t found = c.count;
+  size_t found = c.count, corners = c.corner_count;
   if (found > 0 && found <= most) c.points = ambulo__arena_take(arena, 3 * found, sizeof *c.points);
+  if (mesh->whole && c.points && corners > 0 && corners <= 8 * most)
+    c.corners = ambulo__arena_take(arena, corners, sizeof *c.corners);
   if (c.points) {
     take_scene(&c, root);
-    *points = c.points;
-    *count = finite_ones(c.points, c.count);
+    mesh->points = c.points;
+    mesh->count = finite_ones(c.points, c.count);
+  }
+  /* where a point is left out, no number of one is what it was */
+  if (c.corners && (size_t)mesh->count == c.count) {
+    mesh->corners = c.corners;
+    mesh->triangle_count = (int)(corners / 3);
   }
   ambulo__arena_free(&own);
   return found;

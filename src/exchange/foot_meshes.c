@@ -1,4 +1,5 @@
-/* exchange/foot_meshes.c - vertices of meshes, as far as feet ask for them (body_tree.h). */
+/* exchange/foot_meshes.c - vertices and triangles of meshes, as far as feet and the page ask for
+ * them (body_tree.h). */
 #include "exchange/body_tree.h"
 
 #include "base/numtext.h"
@@ -16,7 +17,8 @@
  *   STL, binary   80 bytes, the number n of triangles, n times 12 floats (the normal, three
  *                 vertices) and 2 bytes; all little-endian
  *   STL, text     "vertex X Y Z"
- *   OBJ           "v X Y Z"
+ *   OBJ           "v X Y Z"; "f A B C ...", vertices from 1, or back from the last: -1, each with
+ *                 "/..." behind it
  *   COLLADA       foot_collada.c
  */
 
@@ -80,6 +82,68 @@ static int read_lines(ambulo__mesh *mesh, const char *text, const char *word) {
   return count;
 }
 
+/* ------------------------------------------------------------------- triangles */
+
+/* those of STL, three vertices each, one after the other */
+static void three_by_three(ambulo__arena *arena, ambulo__mesh *mesh, size_t count) {
+  mesh->corners = ambulo__arena_take(arena, count, sizeof *mesh->corners);
+  if (!mesh->corners) return;
+  for (size_t i = 0; i < count; i++) mesh->corners[i] = (int)i;
+  mesh->triangle_count = (int)(count / 3);
+}
+
+static int is_word(const char *line, char word) {
+  return line[0] == word && (line[1] == ' ' || line[1] == '\t');
+}
+
+/* vertices of a face, of `known` before it; returns how many */
+static int read_face(const char *line, int known, int most, int *corner) {
+  int count = 0;
+  for (line++; count < most; line += strcspn(line, " \t\r\n")) {
+    double number;
+    line += strspn(line, " \t");
+    if (!ambulo__parse_double(line, strcspn(line, "/ \t\r\n"), &number) || fabs(number) > 1e9)
+      return count;
+    corner[count++] = number < 0.0 ? known + (int)number : (int)number - 1;
+  }
+  return count;
+}
+
+/* those of OBJ, faces as fans; counts them, where there is no room for them yet */
+static int read_faces(ambulo__mesh *mesh, const char *text) {
+  enum { MOST = 64 }; /* corners of a face */
+  int count = 0, known = 0, corner[MOST];
+  for (const char *line = text; line; line = strchr(line, '\n')) {
+    line += *line == '\n';
+    line += strspn(line, " \t");
+    known += is_word(line, 'v');
+    if (!is_word(line, 'f')) continue;
+    int corners = read_face(line, known, MOST, corner), good = 1;
+    for (int k = 0; k < corners; k++) good &= corner[k] >= 0 && corner[k] < mesh->count;
+    for (int k = 2; k < corners && good; k++, count++) {
+      const int triangle[3] = {corner[0], corner[k - 1], corner[k]};
+      if (mesh->corners) memcpy(mesh->corners + 3 * (size_t)count, triangle, sizeof triangle);
+    }
+  }
+  return count;
+}
+
+/* a vertex that is no number was left out: then no number of a vertex is what it was */
+static void read_triangles(ambulo__arena *arena, ambulo__mesh *mesh, const char *text, int is_stl,
+                           size_t count) {
+  if (!mesh->whole || (size_t)mesh->count != count) return;
+  if (is_stl) {
+    if (count % 3 == 0) three_by_three(arena, mesh, count);
+    return;
+  }
+  int triangles = read_faces(mesh, text);
+  if (triangles == 0) return;
+  mesh->corners = ambulo__arena_take(arena, 3 * (size_t)triangles, sizeof *mesh->corners);
+  if (mesh->corners) mesh->triangle_count = read_faces(mesh, text);
+}
+
+/* ------------------------------------------------------------------------- files */
+
 static int is_too_much(ambulo__tree *tree, const ambulo__mesh *mesh, size_t count) {
   if (count <= most_points - tree->mesh_points) return 0;
   ambulo__tree_note(tree, NULL,
@@ -101,6 +165,7 @@ static void read_text(ambulo__tree *tree, ambulo__mesh *mesh, const char *text, 
     read_binary(mesh, text, triangles);
   else
     (void)read_lines(mesh, text, word);
+  read_triangles(tree->arena, mesh, text, binary || word[1], count);
 }
 
 static int is_there(const char *path) {
@@ -168,8 +233,7 @@ void ambulo__mesh_read(ambulo__tree *tree, ambulo__mesh *mesh) {
   mesh->tried = 1;
   char *path = find(a, tree->path, mesh->file);
   if (is_collada(path)) {
-    size_t count = ambulo__collada_points(tree->arena, path, most_points - tree->mesh_points,
-                                          &mesh->points, &mesh->count);
+    size_t count = ambulo__collada_read(tree->arena, path, most_points - tree->mesh_points, mesh);
     if (!is_too_much(tree, mesh, count)) tree->mesh_points += count;
     ambulo__free(a, path);
     return;

@@ -8,12 +8,14 @@
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/arithmetic.h"
 #include "base/numtext.h"
 #include "base/sized.h"
 #include "formats/atomic_file.h"
 #include "exchange/body_tree.h"
+#include "exchange/meshes.h"
 
 static int options_are_sane(const ambulo_import_options *o) {
   return o->pose_count >= 0 && o->foot_count >= 0 && o->heel_count >= 0 && o->toe_count >= 0 &&
@@ -166,9 +168,10 @@ static ambulo_status read_back(const ambulo__text_buffer *text, const ambulo_all
   return status;
 }
 
+/* `meshes`: NULL: not asked for */
 static ambulo_status import_text(const char *path, const ambulo_import_options *options,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                 ambulo__text_buffer *text) {
+                                 ambulo__text_buffer *text, ambulo__text_buffer *meshes) {
   ambulo__arena arena = {.allocator = ambulo__allocator_or_default(allocator)};
   ambulo__xml xml = {.arena = &arena, .diagnostics = diagnostics};
   ambulo__tree tree = {.arena = &arena,
@@ -181,7 +184,29 @@ static ambulo_status import_text(const char *path, const ambulo_import_options *
   ambulo_status status = settle_forward(path, options, allocator, diagnostics, tree.forward);
   if (!status) status = read_tree(&tree, path, text);
   if (!status) status = read_back(text, allocator, diagnostics);
+  if (!status && meshes) status = ambulo__tree_meshes(&tree, meshes);
   ambulo__arena_free(&arena);
+  return status;
+}
+
+/* The meshes first, then the model that they stand beside: without it they are removed again. Those
+ * of an earlier model go with it. */
+static ambulo_status write_both(const char *output, const char *beside, const char *source,
+                                int overwrite, const ambulo__text_buffer *text,
+                                const ambulo__text_buffer *meshes,
+                                ambulo_diagnostics *diagnostics) {
+  const ambulo_allocator *a = &text->allocator;
+  ambulo_status status = AMBULO_OK;
+  int was_there = beside && access(beside, F_OK) == 0, shown = meshes->length > 0;
+  if (shown) status = ambulo__output_check(beside, &source, 1, overwrite, diagnostics);
+  if (shown && !status)
+    status =
+        ambulo__write_file(beside, ambulo__text_data(meshes), meshes->length, 1, a, diagnostics);
+  if (!status)
+    status = ambulo__write_file(output, ambulo__text_data(text), text->length, 1, a, diagnostics);
+  int stale = !shown && was_there && overwrite &&
+              ambulo__file_says(beside, "\"" AMBULO__MESHES_SCHEMA "\"", 64);
+  if (status ? shown && !was_there : stale) (void)unlink(beside);
   return status;
 }
 
@@ -196,19 +221,25 @@ ambulo_status ambulo_import_model(const char *path, const char *output,
       !options_are_sane(options))
     return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo__text_buffer buffer;
+  ambulo__text_buffer buffer, meshes;
   ambulo__text_init(&buffer, allocator);
-  ambulo_status status = AMBULO_OK;
-  if (output) status = ambulo__output_check(output, &path, 1, options->overwrite, diagnostics);
-  if (!status) status = import_text(path, options, allocator, diagnostics, &buffer);
+  ambulo__text_init(&meshes, allocator);
+  char *beside = NULL;
+  ambulo_status status =
+      output ? ambulo__meshes_path(&buffer.allocator, output, &beside) : AMBULO_OK;
   if (!status && output)
-    status = ambulo__write_file(output, ambulo__text_data(&buffer), buffer.length, 1, allocator,
-                                diagnostics);
+    status = ambulo__output_check(output, &path, 1, options->overwrite, diagnostics);
+  if (!status)
+    status = import_text(path, options, allocator, diagnostics, &buffer, beside ? &meshes : NULL);
+  if (!status && output)
+    status = write_both(output, beside, path, options->overwrite, &buffer, &meshes, diagnostics);
   if (!status && !output) {
     char *copy = ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
     if (copy) *text = copy;
     status = copy ? AMBULO_OK : AMBULO_E_MEMORY;
   }
+  ambulo__free(&buffer.allocator, beside);
+  ambulo__text_free(&meshes);
   ambulo__text_free(&buffer);
   return ambulo__conclude(diagnostics, errors, status, path);
 }

@@ -129,6 +129,7 @@ ambulo__rigid ambulo__mjcf_place(const ambulo__mjcf *m, const ambulo__xml_node *
  */
 
 enum { PLANE, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH, HFIELD, SDF, TYPES };
+enum { LAST_SHOWN = 2 }; /* groups of geoms that MuJoCo shows unasked: 0 to 2 */
 
 static const double pi = 3.14159265358979323846;
 
@@ -276,5 +277,6 @@ void ambulo__mjcf_geom(ambulo__mjcf *m, const ambulo__xml_node *geom, const char
   (void)ambulo__mjcf_numbers(m, geom, around, "contype", 1, 1, &touches[0]);
   (void)ambulo__mjcf_numbers(m, geom, around, "conaffinity", 1, 1, &touches[1]);
   solid->seen = touches[0] == 0.0 && touches[1] == 0.0;
+  solid->hidden = number > LAST_SHOWN;
   *has_solid = 1;
 }

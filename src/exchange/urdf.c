@@ -183,7 +183,7 @@ static void read_solid(ambulo__tree *tree, int link, const ambulo__xml_node *nod
                                          AMBULO__CAPSULE};
   const ambulo__xml_node *geometry = ambulo__xml_child(node, "geometry");
   const ambulo__xml_node *shape = geometry ? geometry->first : NULL;
-  ambulo__tree_solid solid = {.link = link, .shape = AMBULO__MESH, .seen = seen};
+  ambulo__tree_solid solid = {.link = link, .shape = AMBULO__MESH, .seen = seen, .hidden = !seen};
   if (!shape) return;
   solid.at = origin_of(tree->xml, node);
   for (int i = 0; i < 4; i++)

@@ -254,7 +254,8 @@ static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *re
   const ambulo__people *beside = wanted && !status ? &people : NULL;
   status = ambulo__gait_svg(problem, result, beside, text);
   if (!status) status = write_text(folder, "gait.svg", text, diagnostics);
-  if (!status) status = ambulo__scene_json(problem, result, beside, options->muscles, text);
+  if (!status)
+    status = ambulo__scene_json(problem, result, beside, options->muscles, options->inputs, text);
   if (!status) status = write_text(folder, "scene.json", text, diagnostics);
   ambulo__people_free(&people);
   return status;

@@ -5,6 +5,7 @@
  */
 #include "show/scene.h"
 
+#include "ambulo/tools/load.h"
 #include "base/arithmetic.h"
 #include "contact/contacts.h"
 #include "show/gait_svg.h"
@@ -246,7 +247,7 @@ static void about_problem(ambulo__json *json, const ambulo__stride *s) {
                        is_finite(s->q, (size_t)s->samples * (size_t)s->coordinates));
 }
 
-static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s) {
+static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s, const char *inputs) {
   ambulo__scene_body body = {.model = NULL};
   ambulo_status status =
       ambulo__scene_body_create(s->model, s->q, s->samples, s->problem->definition.ground_height,
@@ -255,6 +256,9 @@ static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s) {
     ambulo__scene_bones(json, &body);
     status = ambulo__scene_worn(json, s, &body);
     if (!status) status = ambulo__scene_points(json, &body);
+    if (!status)
+      status =
+          ambulo__scene_meshes(json, &body, inputs ? inputs : ambulo_problem_inputs(s->problem));
   }
   ambulo__scene_body_free(&body);
   return status;
@@ -262,7 +266,7 @@ static ambulo_status body_of(ambulo__json *json, const ambulo__stride *s) {
 
 ambulo_status ambulo__scene_json(const ambulo_problem *problem, const ambulo_result *result,
                                  const ambulo__people *people, const ambulo_muscles *muscles,
-                                 ambulo__text_buffer *text) {
+                                 const char *inputs, ambulo__text_buffer *text) {
   ambulo__json json = {.text = text, .first = 1};
   ambulo_muscle_analysis *analysis = NULL;
   ambulo__stride stride = {.samples = 0};
@@ -278,7 +282,7 @@ ambulo_status ambulo__scene_json(const ambulo_problem *problem, const ambulo_res
     about_problem(&json, &stride);
     status = ambulo__scene_surroundings(&json, &stride);
   }
-  if (!status) status = body_of(&json, &stride);
+  if (!status) status = body_of(&json, &stride, inputs);
   if (!status) status = ambulo__scene_curves(&json, &stride, &beside);
   if (!status && analysis) status = ambulo__scene_muscles(&json, &stride, analysis);
   if (!status) ambulo__json_close(&json, '}');

@@ -47,6 +47,11 @@ void ambulo__scene_bones(ambulo__json *json, ambulo__scene_body *body);
 /* "points" and "center_of_mass", after all of them are listed. Errors: E_MEMORY. */
 ambulo_status ambulo__scene_points(ambulo__json *json, ambulo__scene_body *body);
 
+/* "meshes" of links and their frames over time, where a file of them stands beside one of `inputs`
+ * (formats/inputs.h), the model's (exchange/meshes.h). Errors: E_MEMORY. */
+ambulo_status ambulo__scene_meshes(ambulo__json *json, ambulo__scene_body *body,
+                                   const char *inputs);
+
 /* "left", "right" or "middle". */
 const char *ambulo__scene_side(ambulo__side side);
 /* World axes to forward, left and up above the ground's height. */
@@ -112,10 +117,11 @@ ambulo_status ambulo__scene_muscles(ambulo__json *json, const ambulo__stride *st
 enum { AMBULO__SCENE_SAMPLES = 161 };
 
 /* Of a result; `people` (NULL: none) beside the curves of a walk (show/gait_people.h); who makes
- * the motion (NULL: the problem's own muscles, if any). Errors: E_ARGUMENT, E_MEMORY. */
+ * the motion (NULL: the problem's own muscles, if any); the files that the problem was read from
+ * (NULL: its own). Errors: E_ARGUMENT, E_MEMORY. */
 ambulo_status ambulo__scene_json(const ambulo_problem *problem, const ambulo_result *result,
                                  const ambulo__people *people, const ambulo_muscles *muscles,
-                                 ambulo__text_buffer *text);
+                                 const char *inputs, ambulo__text_buffer *text);
 
 /* Of a motion that nobody predicted: q [samples][coordinates], rad and m, evenly spaced over
  * `duration` s; `ground` m along up. Without forces and surroundings. Errors: E_MEMORY. */

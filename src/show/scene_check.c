@@ -12,9 +12,9 @@ enum { LEAST_SAMPLES = 2, MOST_SAMPLES = 100000 };
 static const double longest = 1e6; /* s */
 
 static int is_text_key(const char *key) {
-  static const char *const keys[] = {"schema", "problem", "model", "input_hash", "name",
-                                     "kind",   "side",    "unit",  "shape",      "point",
-                                     "mode",   "people",  "group"};
+  static const char *const keys[] = {
+      "schema", "problem", "model", "input_hash", "name",  "kind", "side",     "unit",
+      "shape",  "point",   "mode",  "people",     "group", "link", "vertices", "triangles"};
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
     if (strcmp(key, keys[i]) == 0) return 1;
   return 0;

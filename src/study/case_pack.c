@@ -179,11 +179,11 @@ static void summary(shown_case *c, const ambulo__yaml_node *map, const char **pa
   ambulo__text_append_char(&c->tree, '}');
 }
 
-/* `input_hash` and the units, in which series do not stand any more, are left out; and muscles, of
- * which a page of many cases would be made */
+/* `input_hash` and the units, in which series do not stand any more, are left out; and muscles
+ * and meshes, of which a page of many cases would be made */
 static void scene(shown_case *c, const ambulo__yaml_node *map) {
-  static const char *const left[] = {"schema", "model",   "input_hash",
-                                     "units",  "samples", "muscles"};
+  static const char *const left[] = {"schema",  "model",   "input_hash", "units",
+                                     "samples", "muscles", "meshes"};
   int written = 0;
   ambulo__text_append_char(&c->tree, '{');
   for (int i = 0; i < ambulo__yaml_pairs(map); i++) {

@@ -259,6 +259,18 @@
     HTMLAnchorElement.prototype.click = click;
   }
 
+  // what is shown at first, or not, and else
+  async function switches(list) {
+    for (const [key, on] of list) {
+      const box = document.querySelector(`[data-show=${key}]`), whole = await picture();
+      check(`${key} are ${on ? "" : "not "}shown at first`, shown(box) && box.checked === on);
+      box.click();
+      check(`shows ${key} or not`, apart(whole, await picture()) > 0.01, key);
+      box.click();
+      check(`and ${key} as before`, apart(whole, await picture()) < 0.02, key);
+    }
+  }
+
   const words = () => document.body.textContent;
   if (kind === "walk") {
     names();
@@ -277,20 +289,13 @@
     check("verdict, sensitivities, objective, convergence, versions", ["Verdict and audit", "What costs what",
       "Objective by term", "How the solve went", "Versions"].every((w) => words().includes(w)));
     check("the failure box is empty", !$("failure").textContent);
-    check("no control for what is not there", !["muscles", "contacts"].some((key) =>
+    check("no control for what is not there", !["muscles", "contacts", "meshes"].some((key) =>
       shown(document.querySelector(`[data-show=${key}]`))));
   } else if (kind === "muscles") {
     await frame();
     names();
     scrub(0.4);
-    for (const [key, on] of [["muscles", true], ["contacts", false]]) {
-      const box = document.querySelector(`[data-show=${key}]`), whole = await picture();
-      check(`${key} are ${on ? "" : "not "}shown at first`, shown(box) && box.checked === on);
-      box.click();
-      check(`shows ${key} or not`, apart(whole, await picture()) > 0.01, key);
-      box.click();
-      check(`and ${key} as before`, apart(whole, await picture()) < 0.02, key);
-    }
+    await switches([["muscles", true], ["contacts", false]]);
     const { muscles } = globalThis.ambulo.scene();
     check("activations are shares", muscles.muscles.length === 80 && muscles.muscles.every((m) =>
       m.activation.every((a) => a >= 0 && a <= 1)));
@@ -304,6 +309,17 @@
     const said = $("panels").textContent;
     check("their power is said in place of an estimate", /metabolic power of muscles.*W\/kg/.test(said)
       && !/cost, estimated/.test(said));
+  } else if (kind === "robot") {
+    await frame();
+    names();
+    scrub(0.4);
+    await switches([["meshes", true], ["bones", false]]);
+    const { meshes } = globalThis.ambulo.scene(), [base, arm] = meshes;
+    check("meshes of both links", base?.link === "base" && arm?.link === "arm");
+    check("a box has eight corners, at half of its edges", [0, 1, 2].every((i) =>
+      Math.abs(Math.max(...base.vertices.filter((_, k) => k % 3 === i)) - [0.1, 0.2, 0.3][i]) < 1e-4));
+    check("triangles of points that are there", Math.max(...arm.triangles) === arm.vertices.length / 3 - 1
+      && Math.min(...arm.triangles) === 0);
   } else if (kind === "failed") {
     await frame();
     names();

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The page in a browser, headless: seven pages in the frames of one, each used as a person would
+# The page in a browser, headless: eight pages in the frames of one, each used as a person would
 # (checks.js) and watched for errors (watch.js): a walk with a name that is code, beside another
-# result; a walk with muscles; a failed solve; a study; a study of two axes; a front; and a browser
-# without WebGL. Without chromium it is skipped, but for what needs none: the size of pages, and that
-# the built page is that of its sources. `make check-page` installs a browser. Prints "N passed, N
+# result; a walk with muscles; a failed solve; a study; a study of two axes; a front; a robot with
+# meshes; and a browser without WebGL. Without chromium it is skipped, but for what needs none: the
+# size of pages, and that the built page is that of its sources. `make check-page` installs a browser. Prints "N passed, N
 # failed".
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
@@ -50,11 +50,21 @@ models=$top/models
     "$models" >axes.yaml
   "$AMBULO" batch axes.yaml -o axes -q
   "$AMBULO" batch "$top/tests/study/front.yaml" -o front -q
+  # a robot that is a box and an arm, a model of MuJoCo's
+  cat >robot.xml <<'END'
+<mujoco model="robot"><worldbody><body name="base" pos="0 0 1"><geom type="box" size=".1 .2 .3"/>
+<joint name="base" type="hinge" axis="0 0 1"/><body name="arm" pos=".2 0 0"><joint name="arm"
+type="hinge" axis="0 1 0"/><geom type="capsule" size=".05 .3" pos="0 0 -.3"/></body></body>
+</worldbody></mujoco>
+END
+  "$AMBULO" import robot.xml -o robot.yaml
+  printf 'ambulo: 1\nkind: problem\nname: robot\nmodel: robot.yaml\nangles: degrees\ntime: {duration: 1, intervals: 12}\nends: {initial: {base: 0, arm: 0}, final: {base: 40, arm: 60}}\nobjective: [{term: acceleration, weight: 1}]\n' >reach.yaml
+  "$AMBULO" solve reach.yaml -o robot -q
 } 2>/dev/null
 # a name that would end the script it stands in, and begin an element
 evil='a<\/script><b>\\u2028\\"'"'"'\&ü'
 sed -i "0,/\"problem\": \"walk\"/s//\"problem\": \"$evil\"/" walk/summary.json
-for name in muscles failed study axes front; do
+for name in muscles failed study axes front robot; do
   check "ambulo report $name" "$AMBULO" report $name -o $name.html >/dev/null
 done
 check "ambulo report of two" "$AMBULO" report walk "brisk<b>" -o walk.html >/dev/null
@@ -62,7 +72,7 @@ check "ambulo report of two" "$AMBULO" report walk "brisk<b>" -o walk.html >/dev
 "$AMBULO" solve "$models/walk_whole_body_45.yaml" -o large -q 2>/dev/null
 check "ambulo report of eight" "$AMBULO" report large large large large large large large large \
   -o eight.html >/dev/null
-for name in walk muscles failed study axes front eight; do
+for name in walk muscles failed study axes front robot eight; do
   check "$name.html: $(wc -c <$name.html) bytes, expected at most 1200000" \
     [ "$(wc -c <$name.html)" -le 1200000 ]
 done
@@ -85,7 +95,7 @@ page() {
     /^<\/body>/ && !done { done = 1 }
     END { print "<script>"; put(last); print "</script>" }' "$2"
 }
-for kind in walk muscles failed study axes front; do page $kind $kind.html >"$kind-test.html"; done
+for kind in walk muscles failed study axes front robot; do page $kind $kind.html >"$kind-test.html"; done
 # cases as their own folders have them; their names are those of the folders
 {
   sed '/^<meta charset/q' study-test.html
@@ -107,6 +117,7 @@ cat >all.html <<'END'
 <iframe width="480" height="400" src="study-test.html#t=0.3"></iframe>
 <iframe width="480" height="400" src="front-test.html"></iframe>
 <iframe width="480" height="400" src="axes-test.html"></iframe>
+<iframe width="400" height="400" src="robot-test.html#t=0.3"></iframe>
 <iframe width="400" height="400" src="flat-test.html#webgl=0"></iframe>
 END
 : >browser.log
@@ -118,7 +129,7 @@ END
 running=$!
 trap 'kill "$running" 2>/dev/null; wait "$running" 2>/dev/null; rm -rf "$work"' EXIT
 for _ in $(seq 1200); do # at most two minutes
-  [ "$(grep -c 'check: end ' browser.log)" -lt 7 ] && kill -0 "$running" 2>/dev/null || break
+  [ "$(grep -c 'check: end ' browser.log)" -lt 8 ] && kill -0 "$running" 2>/dev/null || break
   sleep 0.1
 done
 results=$(sed -n 's/.*CONSOLE[^"]*"check: \(.*\)", source: .*/\1/p' browser.log)
@@ -131,7 +142,7 @@ while IFS= read -r line; do
     ;;
   esac
 done <<<"$results"
-for kind in walk muscles failed study axes front flat; do
+for kind in walk muscles failed study axes front robot flat; do
   check "the checks of $kind come to their end" grep -q "^end $kind" <<<"$results"
 done
 [ "$failed" = 0 ] || grep CONSOLE browser.log | grep -v 'check: ' | tail -n 5

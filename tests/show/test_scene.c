@@ -90,7 +90,7 @@ static scene open_scene(const char *file, const char *const *overrides, int coun
   for (int j = 0; j < variables; j++) x[j] = scale * (0.1 + 0.2 * sin(1.7 * j));
   assert_int_equal(ambulo__stride_create(s.problem, x, AMBULO__SCENE_SAMPLES, NULL, &s.stride), 0);
   ambulo__text_init(&s.text, NULL);
-  assert_int_equal(ambulo__scene_json(s.problem, s.result, people, NULL, &s.text), AMBULO_OK);
+  assert_int_equal(ambulo__scene_json(s.problem, s.result, people, NULL, NULL, &s.text), AMBULO_OK);
   s.read = yaml_open(ambulo__text_data(&s.text));
   assert_int_equal(s.read.status, AMBULO_OK);
   return s;
@@ -316,7 +316,7 @@ static void memory_may_run_out_anywhere(void **state) {
     ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo__text_buffer text;
     ambulo__text_init(&text, &allocator);
-    ambulo_status status = ambulo__scene_json(s.problem, s.result, NULL, NULL, &text);
+    ambulo_status status = ambulo__scene_json(s.problem, s.result, NULL, NULL, NULL, &text);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     if (!status) assert_string_equal(ambulo__text_data(&text), ambulo__text_data(&s.text));
     ambulo__text_free(&text);

@@ -26,7 +26,7 @@ static drawn open_drawn(double scale) {
   for (int j = 0; j < d.problem->variables; j++)
     d.result->x[j] = scale * (0.1 + 0.2 * sin(1.7 * j));
   ambulo__text_init(&d.text, NULL);
-  assert_int_equal(ambulo__scene_json(d.problem, d.result, NULL, NULL, &d.text), AMBULO_OK);
+  assert_int_equal(ambulo__scene_json(d.problem, d.result, NULL, NULL, NULL, &d.text), AMBULO_OK);
   d.read = yaml_open(ambulo__text_data(&d.text));
   assert_int_equal(d.read.status, AMBULO_OK);
   d.muscles = ambulo__yaml_get(d.read.root, "muscles");
@@ -189,7 +189,7 @@ static void memory_may_run_out_anywhere(void **state) {
     ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo__text_buffer text;
     ambulo__text_init(&text, &allocator);
-    ambulo_status status = ambulo__scene_json(d.problem, d.result, NULL, NULL, &text);
+    ambulo_status status = ambulo__scene_json(d.problem, d.result, NULL, NULL, NULL, &text);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     if (!status) assert_string_equal(ambulo__text_data(&text), ambulo__text_data(&d.text));
     ambulo__text_free(&text);

@@ -56,7 +56,9 @@ AMBULO_TOOL_DEFAULT(ambulo_import_options);
  * file to `output` (whole or not at all), or returns its text in *text, to be freed with
  * ambulo_text_free, when output is NULL. What was left out or changed is a warning each, and a
  * comment in the file. `options` (NULL: defaults), `allocator`, `diagnostics` and `text` (with an
- * output) may be NULL.
+ * output) may be NULL. What the body looks like is written beside an output that ends in .yaml: the
+ * triangles of robot.yaml to robot.meshes, which only a page shows; with `overwrite` it takes the
+ * place of a file that is there.
  * Errors: E_ARGUMENT, E_IO (also: built without expat), E_PARSE, E_SCHEMA, E_MODEL, E_LIMIT,
  * E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_import_model(const char *path, const char *output,

@@ -45,7 +45,8 @@ export class Actor {
       if (o.isInstancedMesh) o.visible = shows.paths;
       else if (o.isMesh) o.visible = shows.prints;
     });
-    this.figure.showBones(shows.bones, shows.bones || Boolean(this.muscles && shows.muscles));
+    this.figure.showBones(shows.bones, shows.bones || Boolean(this.muscles && shows.muscles),
+      shows.meshes);
     this.massBall.visible = shows.mass;
   }
 

@@ -17,6 +17,13 @@ export function series(list, unit) {
   return out;
 }
 
+// whole numbers in a text, each the difference from the one `step` before it (src/exchange/meshes.h)
+function sums(text, step, unit) {
+  const out = Float64Array.from(text.split(" "), Number);
+  for (let i = step; i < out.length; i++) out[i] += out[i - step];
+  return out.map((x) => x * unit);
+}
+
 // three series of a place: forward, left, up, m
 const places = (three, unit) => three.map((one) => series(one, unit));
 
@@ -62,6 +69,12 @@ export function unpack(raw) {
     joints: raw.muscles.joints.map((j) => ({ ...j, at: places(j.at, u.length),
       force: places(j.force, u.force) })),
   };
+  scene.meshes = (raw.meshes ?? []).map((m) => ({
+    ...m,
+    frame: m.frame.map((p) => places(p, u.length)),
+    vertices: sums(m.vertices, 3, 1e-4),
+    triangles: sums(m.triangles, 1, 1),
+  }));
   scene.ground = raw.ground ?? { is_there: 1, slope: 0, surfaces: [] };
   scene.obstacles = raw.obstacles ?? [];
   scene.places = raw.places ?? [];

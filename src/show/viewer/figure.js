@@ -1,10 +1,12 @@
-// A body: capsules along its bones, shoes on its soles, what it carries; posed at a time.
+// A body: its meshes, or capsules along its bones and shoes on its soles; what it carries; posed at a
+// time.
 import {
   BufferAttribute, BufferGeometry, CapsuleGeometry, Color, Group, Matrix4, Mesh,
   MeshStandardMaterial, Quaternion, SphereGeometry, BoxGeometry, CylinderGeometry, Vector3,
 } from "three";
 import { sampleAt, valueAt } from "./decode.js";
 import { Trunk, limb } from "./limbs.js";
+import { Meshes } from "./meshes.js";
 
 // forward, left, up to the axes of three.js: x forward, y up, z to the right
 export const toView = (f, l, u, out = new Vector3()) => out.set(f, u, -l);
@@ -34,8 +36,10 @@ export class Figure {
   constructor(scene, colors, ghost) {
     this.scene = scene;
     this.group = new Group();
-    this.flesh = new Group();
+    this.flesh = new Group(); // the body, and what it carries
+    this.body = new Group();
     this.lines = new Group();
+    this.flesh.add(this.body);
     this.group.add(this.flesh, this.lines);
     this.parts = [];
     this.ghost = ghost;
@@ -49,6 +53,15 @@ export class Figure {
     this.lineMaterials = {};
     for (const side of ["left", "right", "middle"])
       this.lineMaterials[side] = material(colors[side]);
+    if (scene.meshes.length) {
+      for (const side of ["left", "right", "middle"]) {
+        this.materials[`mesh ${side}`] = material(colors[side]);
+        this.materials[`mesh ${side}`].side = 2;
+      }
+      this.meshes = new Meshes(scene, this.materials, ghost);
+      this.group.add(this.meshes.group);
+      this.parts.push((where) => this.meshes.pose(where));
+    }
     this.build();
   }
 
@@ -70,7 +83,7 @@ export class Figure {
     for (const foot of scene.feet) if (foot.sole.length === 4) this.addShoe(foot);
     if (!scene.ground.is_there) this.addPivot();
     this.addCarried();
-    this.showBones(false, false);
+    this.showBones(false, false, true);
   }
 
   addMesh(geometry, material, parent = this.flesh) {
@@ -85,7 +98,7 @@ export class Figure {
     const radius = thin ? 0.011 : bone.radius || lineRadius(length);
     const mesh = this.addMesh((!thin && limb(bone.name, radius, length)) ||
       new CapsuleGeometry(radius, length, 8, 20),
-      (thin ? this.lineMaterials : this.materials)[bone.side], thin ? this.lines : this.flesh);
+      (thin ? this.lineMaterials : this.materials)[bone.side], thin ? this.lines : this.body);
     this.parts.push((where) => {
       pointAt(this.scene, bone.points[0], where, one);
       pointAt(this.scene, bone.points[1], where, other);
@@ -108,14 +121,14 @@ export class Figure {
   }
 
   addTrunk(trunk) {
-    const mesh = this.addMesh(trunk.geometry, this.materials.middle);
+    const mesh = this.addMesh(trunk.geometry, this.materials.middle, this.body);
     mesh.frustumCulled = false;
     this.materials.middle.side = 2;
     this.parts.push((where) => trunk.pose(where));
   }
 
   addHead(bone) {
-    const mesh = this.addMesh(new SphereGeometry(bone.radius, 28, 20), this.materials.middle);
+    const mesh = this.addMesh(new SphereGeometry(bone.radius, 28, 20), this.materials.middle, this.body);
     this.parts.push((where) => pointAt(this.scene, bone.points[1], where, mesh.position));
   }
 
@@ -132,7 +145,7 @@ export class Figure {
     flat.flatShading = true;
     flat.side = 2;
     this.materials[`shoe ${foot.name}`] = flat;
-    const mesh = this.addMesh(geometry, flat);
+    const mesh = this.addMesh(geometry, flat, this.body);
     mesh.frustumCulled = false;
     const at = corners.map(() => new Vector3()), ankle = new Vector3(), middle = new Vector3();
     const set = (i, v) => position.set([v.x, v.y, v.z], 3 * i);
@@ -272,14 +285,18 @@ export class Figure {
       });
   }
 
-  // thin lines or muscles seen through the body, or the body alone
-  showBones(on, through) {
-    this.lines.visible = on || !this.flesh.children.length;
+  // thin lines or muscles seen through the body, or the body alone; with meshes in its place
+  showBones(on, through, meshes) {
+    const skin = Boolean(meshes && this.meshes), bare = this.lines.children.length === 0;
+    this.lines.visible = on || !this.body.children.length;
+    this.body.visible = !skin || (on && bare);
+    if (this.meshes) this.meshes.group.visible = skin;
     if (this.ghost) return;
-    for (const m of Object.values(this.materials)) {
-      m.transparent = through;
-      m.opacity = through ? 0.22 : 1;
-      m.depthWrite = !through;
+    for (const [name, m] of Object.entries(this.materials)) {
+      const faint = through && (!skin || name.startsWith("mesh "));
+      m.transparent = faint;
+      m.opacity = faint ? 0.22 : 1;
+      m.depthWrite = !faint;
       m.needsUpdate = true;
     }
   }

@@ -312,7 +312,7 @@ function show(main, ghost) {
   }
   document.querySelectorAll("[data-needs]").forEach((node) => {
     const need = { forces: scene.forces.length, ghost: Boolean(other) && !apart, feet: scene.feet.length,
-      muscles: Boolean(scene.muscles), joints: Boolean(scene.muscles?.joints.length),
+      meshes: scene.meshes.length, muscles: Boolean(scene.muscles), joints: Boolean(scene.muscles?.joints.length),
       sides: scene.bones.some((b) => b.side !== "middle") }[node.dataset.needs];
     node.hidden = !need;
   });

@@ -41,7 +41,7 @@ export class Stage {
     this.scene.add(this.root);
     this.lights();
     this.shows = { forces: true, prints: true, paths: false, mass: false, bones: false,
-      ghost: true, follow: true, muscles: true, contacts: false };
+      ghost: true, follow: true, muscles: true, contacts: false, meshes: true };
     this.time = 0;
     this.period = 0;
     this.apart = false; // two motions side by side
@@ -95,7 +95,10 @@ export class Stage {
     const { shows } = this;
     this.actor.show(shows);
     this.second?.show(shows);
-    if (this.ghost) this.ghost.group.visible = shows.ghost;
+    if (this.ghost) {
+      this.ghost.group.visible = shows.ghost;
+      this.ghost.showBones(false, false, shows.meshes);
+    }
     this.moveTo(this.time, this.period, this.ghostTime);
   }
 
@@ -161,7 +164,8 @@ export class Stage {
         });
       }
     }
-    const [rear, front, low, high] = ends;
+    const [rear, front, low, high] = [ends[0], ends[1], ends[2],
+      Math.max(ends[3], this.actor.figure.meshes?.top() ?? ends[3])];
     if (this.data.ground.is_there) return { low, high, height: Math.max(high - low, 0.6) };
     return { low, high, height: Math.max(high - low, front - rear, 0.3), middle: (rear + front) / 2 };
   }
