@@ -158,35 +158,34 @@ static ambulo_status add_solid(ambulo__tree *tree, const ambulo__tree_solid *sol
   return status;
 }
 
-/* 1 for what the source's own program shows, all of it where it shows nothing: but for what stands
- * for a mesh in contacts, on a link with a mesh that is only seen */
-static int is_shown(const ambulo__tree *tree, const ambulo__tree_solid *solid) {
-  int some = 0, skinned = 0;
-  for (int i = 0; i < tree->solid_count; i++) {
-    const ambulo__tree_solid *other = &tree->solids[i];
-    some |= !other->hidden;
-    skinned |= other->link == solid->link && !other->hidden && other->seen && is_mesh(other);
-  }
-  return some ? !solid->hidden && (solid->seen || !skinned) : 1;
-}
-
-static ambulo_status read_shells(ambulo__tree *tree, ambulo__shell *shells) {
+/* What the source's own program shows, all of it where it shows nothing: but for what stands for a
+ * mesh in contacts, on a link with a mesh that is only seen. skinned[links]: zeros, to work in. */
+static ambulo_status read_shells(ambulo__tree *tree, int *skinned, ambulo__shell *shells) {
   ambulo_status status = AMBULO_OK;
-  for (int i = 0; i < tree->solid_count && !status; i++)
-    if (is_shown(tree, &tree->solids[i]))
-      status = add_solid(tree, &tree->solids[i], &shells[tree->solids[i].link]);
+  int some = 0;
+  for (int i = 0; i < tree->solid_count; i++) {
+    const ambulo__tree_solid *solid = &tree->solids[i];
+    some |= !solid->hidden;
+    skinned[solid->link] |= !solid->hidden && solid->seen && is_mesh(solid);
+  }
+  for (int i = 0; i < tree->solid_count && !status; i++) {
+    const ambulo__tree_solid *solid = &tree->solids[i];
+    if (!some || (!solid->hidden && (solid->seen || !skinned[solid->link])))
+      status = add_solid(tree, solid, &shells[solid->link]);
+  }
   return status;
 }
 
-/* share of the body's mass on links that are shown, with what is fixed to them */
-static double mass_shown(const ambulo__tree *tree, const ambulo__shell *shells) {
+/* share of the body's mass on links that are shown, with what is fixed to them; has[links]: to work
+ * in */
+static double mass_shown(const ambulo__tree *tree, const ambulo__shell *shells, int *has) {
   double shown = 0.0, whole = 0.0;
+  memset(has, 0, (size_t)tree->link_count * sizeof *has);
+  for (int i = 0; i < tree->link_count; i++)
+    has[ambulo__tree_leader(tree, i)] |= shells[i].count > 0;
   for (int i = 0; i < tree->link_count; i++) {
-    int has = 0;
-    for (int k = 0; k < tree->link_count && !has; k++)
-      has = shells[k].count && ambulo__tree_leader(tree, k) == ambulo__tree_leader(tree, i);
     whole += tree->links[i].body.mass;
-    shown += has ? tree->links[i].body.mass : 0.0;
+    shown += has[ambulo__tree_leader(tree, i)] ? tree->links[i].body.mass : 0.0;
   }
   return whole > 0.0 ? shown / whole : 0.0;
 }
@@ -301,9 +300,13 @@ ambulo_status ambulo__tree_meshes(ambulo__tree *tree, ambulo__text_buffer *text)
   if (strcmp(tree->format, "OpenSim") == 0)
     return AMBULO_OK; /* its solids are for contacts alone */
   ambulo__shell *shells = ambulo__alloc(a, 2 * links, sizeof *shells);
-  if (!shells) return AMBULO_E_MEMORY;
-  ambulo_status status = read_shells(tree, shells);
-  double shown = status ? 0.0 : mass_shown(tree, shells);
+  int *flags = ambulo__arena_take(tree->arena, links, sizeof *flags);
+  if (!shells || !flags) {
+    ambulo__free(a, shells);
+    return AMBULO_E_MEMORY;
+  }
+  ambulo_status status = read_shells(tree, flags, shells);
+  double shown = status ? 0.0 : mass_shown(tree, shells, flags);
   if (shown > 0.0 && shown < least_mass) warn(tree, shown);
   if (shown >= least_mass) status = thin_shells(shells, tree->link_count, a, shells + links);
   if (!status) print(tree, shells + links, text);
