@@ -101,7 +101,7 @@ static void a_shank_by_hand(void **state) {
       HEAD BALL("0", "-.1") FOOT(MASS "<geom type='box' size='.1 .05 .01' mass='0'/>") TAIL(""),
       &o);
   assert_int_equal(c.status, AMBULO_OK);
-  is_at(&c, "right_heel", 0, -.12);
+  is_at(&c, "right_point", 0, -.12);
   import_shut(&c);
 }
 

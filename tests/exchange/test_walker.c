@@ -73,7 +73,7 @@ static void no_walkers(void **state) {
   import_case c = walk_biped();
   char *feet = walk_changed(c.text, "\nfeet:", "\n# feet:");
   feet[strstr(feet, "\n# feet:") - feet] = '\0';
-  refused(feet, "needs two feet (got 0)");
+  refused(feet, "needs two feet or four (got 0)");
   ambulo_import_options options = ambulo_import_options_default();
   options.root = AMBULO_ROOT_FIXED;
   import_case fixed = import_file("tests/users/biped.urdf", &options);
