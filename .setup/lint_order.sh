@@ -9,7 +9,7 @@
 set -u
 objects=$1
 order=(base model trajectory mechanics muscle contact problem linear method solver formats definitions
-  people exchange retarget show study cli)
+  people import exchange retarget show study cli)
 faults=0
 
 fault() {

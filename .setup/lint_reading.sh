@@ -14,7 +14,7 @@ say() {
   bad=1
 }
 
-for folder in src/engine/*/ src/files/*/ src/people/ src/exchange/ src/retarget/ src/show/ src/study/ src/cli/; do
+for folder in src/engine/*/ src/files/*/ src/people/ src/import/ src/exchange/ src/retarget/ src/show/ src/study/ src/cli/; do
   mapfile -t heads < <(grep -lE '^( \* )?Reading order: ' "$folder"*.[ch] "$folder"*.py)
   if [ ${#heads[@]} -ne 1 ]; then
     say "$folder: ${#heads[@]} files with a reading order, expected one"

@@ -9,7 +9,11 @@
  * where J_i turns about or slides along axis[i] of the joint's frame: sliders first, then hinges
  * through one point. Links without mass, points or branches are parts of the joint of the next one.
  * Frames of bodies are those of the links they are called after, but for `single`. Ground: the
- * other program's world, whose axes the model's are turned to. SI units and radians. */
+ * other program's world, whose axes the model's are turned to. SI units and radians.
+ *
+ * Reading order: export.h, bodies.c, motion_source.c, loads.c, export.c, model_text.c, markup.c,
+ * coupled_text.c, npz.c; external_loads.c; walker.h, walker.c, walk_for.c, walk_robot.c.
+ */
 #ifndef AMBULO_EXCHANGE_EXPORT_H
 #define AMBULO_EXCHANGE_EXPORT_H
 
@@ -18,7 +22,7 @@
 #include "base/alloc.h"
 #include "base/diagnostics.h"
 #include "base/text_buffer.h"
-#include "exchange/rigid.h"
+#include "import/rigid.h"
 #include "formats/motion_file.h"
 #include "model/model.h"
 #include "problem/nlp.h"

@@ -18,9 +18,9 @@
 #include "ambulo/tools/import.h"
 #include "formats/paths.h"
 #include "base/text_buffer.h"
-#include "exchange/osim.h"
-#include "exchange/body_tree.h"
-#include "exchange/xml.h"
+#include "import/osim.h"
+#include "import/body_tree.h"
+#include "import/xml.h"
 #include "model/model.h"
 
 typedef struct loads {

@@ -15,7 +15,7 @@
 #ifndef AMBULO_RETARGET_FIGURE_H
 #define AMBULO_RETARGET_FIGURE_H
 
-#include "exchange/rigid.h"
+#include "import/rigid.h"
 #include "mechanics/pose.h"
 #include "retarget/segments.h"
 

@@ -1,7 +1,7 @@
 /* retarget/segments.c - see segments.h. */
 #include "retarget/segments.h"
 
-#include "exchange/body_tree.h"
+#include "import/body_tree.h"
 
 #include <ctype.h>
 #include <fnmatch.h>

@@ -9,7 +9,7 @@
 #include "retarget/source.h"
 
 #include "base/numtext.h"
-#include "exchange/rigid.h"
+#include "import/rigid.h"
 #include "formats/read_file.h"
 #include "model/model.h"
 #include "retarget/segments.h"

@@ -48,7 +48,7 @@ void ambulo__scene_bones(ambulo__json *json, ambulo__scene_body *body);
 ambulo_status ambulo__scene_points(ambulo__json *json, ambulo__scene_body *body);
 
 /* "meshes" of links and their frames over time, where a file of them stands beside one of `inputs`
- * (formats/inputs.h), the model's (exchange/meshes.h). Errors: E_MEMORY. */
+ * (formats/inputs.h), the model's (import/meshes.h). Errors: E_MEMORY. */
 ambulo_status ambulo__scene_meshes(ambulo__json *json, ambulo__scene_body *body,
                                    const char *inputs);
 

@@ -1,13 +1,13 @@
 /* show/scene_meshes.c - what a body looks like: meshes of its links, and where these are over time
  * (scene.h).
  *
- * They stand beside the model file (exchange/meshes.h), one of the files that a problem was read
+ * They stand beside the model file (import/meshes.h), one of the files that a problem was read
  * from. A result is one without them too: what cannot be read, and links that the model does not
  * have, are left out.
  */
 #include "show/scene.h"
 
-#include "exchange/meshes.h"
+#include "import/meshes.h"
 #include "formats/inputs.h"
 #include "formats/yaml_node.h"
 

@@ -2,7 +2,7 @@
 
 Arguments: the program, the folder of the models and a scratch folder. Prints a line for each
 comparison and, last, "N passed, N failed"; "skipped: ..." where a package is missing. Torques and
-mass matrices of models are those of `ambulo inverse` (tests/exchange/peers_import.py).
+mass matrices of models are those of `ambulo inverse` (tests/import/peers_import.py).
 """
 
 import csv
@@ -12,7 +12,7 @@ import os
 import re
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "import"))
 import peers_import as imports  # noqa: E402
 
 MODELS = ["pendulum", "two_link", "walker_2d", "lower_body_21", "lower_body_23", "whole_body_29",

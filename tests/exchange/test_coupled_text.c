@@ -46,16 +46,16 @@ static void goes_round(void **state, const char *source, ambulo_export_format fo
 }
 
 static void open_sim(void **state) {
-  goes_round(state, "tests/exchange/every_joint_v4.osim", AMBULO_EXPORT_OPENSIM, "a.osim");
-  goes_round(state, "tests/exchange/coupled_joints.xml", AMBULO_EXPORT_OPENSIM, "b.osim");
+  goes_round(state, "tests/import/every_joint_v4.osim", AMBULO_EXPORT_OPENSIM, "a.osim");
+  goes_round(state, "tests/import/coupled_joints.xml", AMBULO_EXPORT_OPENSIM, "b.osim");
 }
 
 static void urdf(void **state) {
-  goes_round(state, "tests/exchange/every_joint.urdf", AMBULO_EXPORT_URDF, "a.urdf");
+  goes_round(state, "tests/import/every_joint.urdf", AMBULO_EXPORT_URDF, "a.urdf");
 }
 
 static void what_cannot_be_written(void **state) {
-  import_case c = import_file("tests/exchange/coupled_joints.xml", NULL);
+  import_case c = import_file("tests/import/coupled_joints.xml", NULL);
   const char *file = scratch_path(state, "c.urdf");
   ambulo_export_options options = ambulo_export_options_default();
   options.format = AMBULO_EXPORT_URDF;

@@ -3,7 +3,7 @@
 
 #include "ambulo/tools/export.h"
 #include "base/diagnostics.h"
-#include "exchange/rigid.h"
+#include "import/rigid.h"
 #include "model/model.h"
 #include "support/import_case.h"
 #include "support/messages.h"

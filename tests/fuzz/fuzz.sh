@@ -13,7 +13,7 @@ export ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=0
 export TMPDIR=${FUZZ_TMPDIR:-$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)}
 
 # the words that readers know: keys, elements, columns
-grep -ohE '"[A-Za-z_][A-Za-z0-9_.]{1,30}"' -r src/files src/people src/exchange src/study src/show/*.c \
+grep -ohE '"[A-Za-z_][A-Za-z0-9_.]{1,30}"' -r src/files src/people src/import src/exchange src/study src/show/*.c \
   src/engine/problem | sort -u >"$folder/words"
 
 fuzz_one() {

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What comparisons with other programs begin with. Sourced by tests/exchange/long_import.sh and tests/exchange/long_export.sh,
+# What comparisons with other programs begin with. Sourced by tests/import/long_import.sh and tests/exchange/long_export.sh,
 # from the folder that the tests are run from; AMBULO, AMBULO_PYTHON name another program, another Python.
 
 # peers WHAT: sets ambulo (its path), python and scratch, a folder that goes at the end, in which
@@ -10,7 +10,7 @@ peers() {
   python=${AMBULO_PYTHON:-python3}
   # a path is seen from the folder that the tests are run from
   case $python in */*) python=$(realpath -s "$python") ;; esac
-  probe=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../exchange/every_joint.urdf")
+  probe=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../import/every_joint.urdf")
   scratch=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-peers-XXXXXX") || exit 1
   trap 'cd / && rm -rf "$scratch"' EXIT
   "$ambulo" import "$probe" >/dev/null 2>"$scratch/said"

@@ -63,7 +63,7 @@ has() { # MODULE WHAT
 optimal() { grep -q '"verdict": "optimal"' "$1/summary.json"; }
 between_too() { ! grep -q 'nodes only\|off between the nodes' "$1"; }
 imports() {
-  "$AMBULO" import "$models/../tests/exchange/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
+  "$AMBULO" import "$models/../tests/import/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
   echo "skipped: $1 (built without expat)"
   return 1
 }

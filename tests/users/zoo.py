@@ -5,7 +5,7 @@ Prints a row of a table for each, and "N passed, N failed": a model passes whose
 between the nodes, keeps its torque limits and has no residual at the root.
 
 What is compared, each a share of the largest torque or of the weight (m g, times 1 m):
-  mass     columns of the mass matrix and torques at random poses, tests/exchange/peers_import.py
+  mass     columns of the mass matrix and torques at random poses, tests/import/peers_import.py
   root     what the root would need besides the forces of the ground, in MuJoCo or Pinocchio
 MuJoCo's rotors (armature) count where the import has them, and are zero where it has not.
 """
@@ -20,7 +20,7 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PEERS = os.path.join(HERE, "..", "exchange")
+PEERS = os.path.join(HERE, "..", "import")
 SOLES = [word for side in ("right", "left") for word in
          ("--heel", f"{side}=calcn_{side[0]}:0,0,-0.03:0,0,0.03", "--toe", f"{side}=calcn_{side[0]}:0.18,0,-0.04:0.18,0,0.04")]
 KINDS = {"menagerie": "mjcf", "erd": "urdf", "opensim": "osim"}

@@ -17,7 +17,7 @@ export function series(list, unit) {
   return out;
 }
 
-// whole numbers in a text, each the difference from the one `step` before it (src/exchange/meshes.h)
+// whole numbers in a text, each the difference from the one `step` before it (src/import/meshes.h)
 function sums(text, step, unit) {
   const out = Float64Array.from(text.split(" "), Number);
   for (let i = step; i < out.length; i++) out[i] += out[i - step];
