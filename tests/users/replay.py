@@ -20,7 +20,7 @@ import sys
 import numpy as np
 import pinocchio as pin
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "exchange"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "import"))
 import peers_import
 
 BOUND = 1e-8
@@ -91,6 +91,7 @@ def main():
         q, v, a = state_of(model, root, row)
         pin.forwardKinematics(model, data, q)
         tau = pin.rnea(model, data, q, v, a, forces_of(model, data, feet, row))
+        tau += model.damping * v + model.friction * v / np.hypot(v, 0.1)
         ours = np.zeros(model.nv)
         for j in range(2, model.njoints):
             name = "tau." + model.names[j]

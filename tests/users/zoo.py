@@ -86,6 +86,8 @@ def root_in_mujoco(source, text, motion):
     model = peers.mujoco_model(mujoco, np, source)
     if "armature:" not in text:
         model.dof_armature[:] = 0
+    model.jnt_stiffness[:] = 0
+    friction = peers.mujoco_friction(mujoco, np, model)
     lift_root(mujoco, model, text)
     data, worst = mujoco.MjData(model), 0.0
     weight = 9.81 * sum(model.body_mass)
@@ -99,7 +101,7 @@ def root_in_mujoco(source, text, motion):
         mujoco.mj_fwdVelocity(model, data)
         needed, ground = np.zeros(model.nv), np.zeros(model.nv)
         mujoco.mj_rne(model, data, 1, needed)
-        needed += model.dof_armature * data.qacc
+        needed += model.dof_armature * data.qacc - data.qfrc_damper + friction(data.qvel)
         for foot, link in feet_of(text).items():
             force = np.array([row[f"grf.{foot}.{axis}"] for axis in "xyz"])
             if force.any():
