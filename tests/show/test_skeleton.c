@@ -138,7 +138,7 @@ static void test_imported_lines_are_as_long_as_the_body(void **state) {
                                       "every_joint_v4.osim"};
   for (int i = 0; i < 4; i++) {
     char path[64];
-    snprintf(path, sizeof path, "tests/exchange/%s", files[i]);
+    snprintf(path, sizeof path, "tests/import/%s", files[i]);
     import_case c = import_file(path, NULL);
     assert_int_equal(c.status, AMBULO_OK);
     ambulo__skeleton s;

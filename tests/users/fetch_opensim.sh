@@ -3,7 +3,7 @@
 # fetch_opensim.sh FOLDER. They are not part of this project: the walk of one person of 85 kg (inverse
 # kinematics of markers, adjusted to the forces of plates; Rajagopal and others 2016), the model scaled
 # to that person and OpenSim's own inverse dynamics come from opensim-core (Apache 2.0), the model
-# Rajagopal2016.osim, and two more that tests/exchange compares with OpenSim, from opensim-models (no licence
+# Rajagopal2016.osim, and two more that tests/import compares with OpenSim, from opensim-models (no licence
 # file). One commit each, with checksums.
 #
 # By curl from GitHub, or, without a network, from clones: OPENSIM_CORE and OPENSIM_MODELS name them.
