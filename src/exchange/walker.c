@@ -14,13 +14,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/arithmetic.h"
 #include "base/diagnostics.h"
 
 enum { MOST_LINKS = 4096 };
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* where a place on a link is in the start pose */
 static void place_of(const ambulo__walker *w, int link, const double local[3], double at[3]) {
@@ -94,12 +91,13 @@ static double length_of(const ambulo__walker *w, int side, int *stands) {
     if (here->coordinate < 0 || w->part[here->coordinate] != AMBULO__PART_LEG) continue;
     place_of(w, here->parent, origin, at);
     for (int k = 0; k < 3; k++) below[k] = at[k] - (joints ? below[k] : sole[k]);
-    whole += sqrt(dot(below, below));
-    length += joints ? hypot(dot(below, forward), dot(below, up)) : fmax(dot(below, up), 0.0);
+    whole += sqrt(ambulo__dot(below, below));
+    length += joints ? hypot(ambulo__dot(below, forward), ambulo__dot(below, up))
+                     : fmax(ambulo__dot(below, up), 0.0);
     memcpy(below, at, sizeof below);
     joints++;
   }
-  *stands &= dot(below, up) - dot(sole, up) > whole / 3.0;
+  *stands &= ambulo__dot(below, up) - ambulo__dot(sole, up) > whole / 3.0;
   return length;
 }
 
@@ -117,8 +115,8 @@ static void choose_four(ambulo__walker *w) {
     double at[3];
     w->foot[i] = i;
     heel_of(w, i, at);
-    along[i] = dot(ambulo_model_forward(w->model), at);
-    aside[i] = dot(ambulo_model_left(w->model), at);
+    along[i] = ambulo__dot(ambulo_model_forward(w->model), at);
+    aside[i] = ambulo__dot(ambulo_model_left(w->model), at);
   }
   for (int pass = 0; pass < 3; pass++) {
     for (int i = 0; i < 3; i++) {
@@ -150,7 +148,7 @@ static ambulo_status choose_feet(ambulo__walker *w, ambulo_diagnostics *diagnost
   const double *left = ambulo_model_left(w->model);
   int named = strcmp(ambulo_model_foot(w->model, 1)->name, "left") == 0 ||
               strcmp(ambulo_model_foot(w->model, 0)->name, "right") == 0;
-  w->width = dot(left, at[0]) - dot(left, at[1]);
+  w->width = ambulo__dot(left, at[0]) - ambulo__dot(left, at[1]);
   if (w->width < 0.0 || (w->width == 0.0 && named)) {
     w->foot[0] = 1;
     w->foot[1] = 0;
@@ -191,7 +189,7 @@ static double half_width(const ambulo__walker *w, int side) {
     if (corner[1] < 0) continue;
     point_at(w, corner[0], a);
     point_at(w, corner[1], b);
-    most = fmax(most, 0.5 * fabs(dot(left, a) - dot(left, b)));
+    most = fmax(most, 0.5 * fabs(ambulo__dot(left, a) - ambulo__dot(left, b)));
   }
   return most;
 }
@@ -229,8 +227,8 @@ static ambulo_status measure(ambulo__walker *w, ambulo_diagnostics *diagnostics)
   for (int side = 0; side < w->feet; side++) {
     double at[3];
     heel_of(w, side, at);
-    w->at[side][0] = dot(ambulo_model_forward(w->model), at);
-    w->at[side][1] = dot(ambulo_model_left(w->model), at);
+    w->at[side][0] = ambulo__dot(ambulo_model_forward(w->model), at);
+    w->at[side][1] = ambulo__dot(ambulo_model_left(w->model), at);
     w->leg += length_of(w, side, &stands) / w->feet;
   }
   for (int left = 0; left < w->feet && w->symmetric; left += 2) {
@@ -258,7 +256,7 @@ ambulo_status ambulo__walker_measure(const ambulo_model *model, const ambulo_all
                              .allocator = ambulo__allocator_or_default(allocator),
                              .count = ambulo_model_coordinate_count(model),
                              .mass = ambulo_model_mass(model),
-                             .gravity = sqrt(dot(gravity, gravity))};
+                             .gravity = sqrt(ambulo__dot(gravity, gravity))};
   size_t count = (size_t)walker->count;
   walker->pose = ambulo__alloc(&walker->allocator, count, sizeof *walker->pose);
   walker->part = ambulo__alloc(&walker->allocator, count, sizeof *walker->part);

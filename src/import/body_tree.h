@@ -157,6 +157,9 @@ int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
 /* Placement of a link in the world at q = 0, and with all coordinates at their defaults. */
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
 ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link);
+/* With the joint of each link at its value [link_count], rad or m; those of fixed links are not
+ * read. */
+ambulo__rigid ambulo__tree_place_at(const ambulo__tree *tree, int link, const double *values);
 /* Unit vectors along forward, left and up. */
 void ambulo__tree_axes(const ambulo__tree *tree, double axes[3][3]);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */

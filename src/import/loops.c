@@ -18,6 +18,7 @@
  * spring in a group is held where it rests: it is stiff beside what a motor does.
  */
 #include "base/arithmetic.h"
+#include "base/lapack.h"
 #include "import/body_tree.h"
 
 #include <math.h>
@@ -40,25 +41,6 @@ typedef struct loop {
 
 /* ------------------------------------------------------------------ kinematics */
 
-static ambulo__rigid place(const loop *l, int link) {
-  ambulo__rigid at = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = l->tree->links[i].parent) {
-    const ambulo__tree_link *t = &l->tree->links[i];
-    ambulo__rigid own = t->origin;
-    if (t->type != AMBULO_FIXED) {
-      ambulo__rigid step = ambulo__rigid_step(t->type == AMBULO_PRISMATIC, t->axis, l->q[i]);
-      own = ambulo__rigid_times(&own, &step);
-    }
-    at = ambulo__rigid_times(&own, &at);
-  }
-  return at;
-}
-
-static int is_above(const ambulo__tree *tree, int above, int link) {
-  while (link >= 0 && link != above) link = tree->links[link].parent;
-  return link >= 0;
-}
-
 /* c of all closures, and J [rows][count] where it is asked for; the largest |c| */
 static double residual(const loop *l, double c[MOST_ROWS], double j[MOST_ROWS][MOST_JOINTS]) {
   double worst = 0.0;
@@ -68,13 +50,13 @@ static double residual(const loop *l, double c[MOST_ROWS], double j[MOST_ROWS][M
     for (int side = 0; side < 2; side++) {
       int link = l->closure[k]->link[side];
       double r[3], sign = side ? -1.0 : 1.0;
-      ambulo__rigid at = place(l, link);
+      ambulo__rigid at = ambulo__tree_place_at(l->tree, link, l->q);
       ambulo__rigid_point(&at, l->closure[k]->point[side], r);
       for (int i = 0; i < 3; i++) c[3 * k + i] += sign * r[i];
       for (int n = 0; j && n < l->count; n++) {
         const ambulo__tree_link *t = &l->tree->links[l->link[n]];
-        if (!is_above(l->tree, l->link[n], link)) continue;
-        ambulo__rigid joint = place(l, l->link[n]);
+        if (!ambulo__tree_hangs_on(l->tree, link, l->link[n])) continue;
+        ambulo__rigid joint = ambulo__tree_place_at(l->tree, l->link[n], l->q);
         double axis[3], arm[3], moved[3];
         ambulo__rigid_vector(&joint, t->axis, axis);
         for (int i = 0; i < 3; i++) arm[i] = r[i] - joint.p[i];
@@ -88,27 +70,10 @@ static double residual(const loop *l, double c[MOST_ROWS], double j[MOST_ROWS][M
   return worst;
 }
 
-/* A x = b by Cholesky's factors; A is lost */
-static void solve(double a[MOST_ROWS][MOST_ROWS], int n, double *b) {
-  for (int i = 0; i < n; i++) {
-    for (int k = 0; k <= i; k++) {
-      double sum = a[i][k];
-      for (int m = 0; m < k; m++) sum -= a[i][m] * a[k][m];
-      a[i][k] = i == k ? sqrt(fmax(sum, 1e-300)) : sum / a[k][k];
-    }
-    for (int m = 0; m < i; m++) b[i] -= a[i][m] * b[m];
-    b[i] /= a[i][i];
-  }
-  for (int i = n - 1; i >= 0; i--) {
-    for (int m = i + 1; m < n; m++) b[i] -= a[m][i] * b[m];
-    b[i] /= a[i][i];
-  }
-}
-
 /* 1: the group closes at the motor's value in l->q, from the values there */
 static int close_at(loop *l) {
   double c[MOST_ROWS], j[MOST_ROWS][MOST_JOINTS], a[MOST_ROWS][MOST_ROWS];
-  int rows = 3 * l->closures;
+  int rows = 3 * l->closures, one = 1, most_rows = MOST_ROWS, pivots[MOST_ROWS], fault = 0;
   for (int step = 0; step < STEPS; step++) {
     if (residual(l, c, j) <= closed) return 1;
     double most = 0.0;
@@ -119,7 +84,8 @@ static int close_at(loop *l) {
         if (u == v) most = fmax(most, a[u][v]);
       }
     for (int u = 0; u < rows; u++) a[u][u] += damping * most;
-    solve(a, rows, c);
+    dgesv_(&rows, &one, a[0], &most_rows, pivots, c, &most_rows, &fault);
+    if (fault) return 0;
     for (int n = 0; n < l->count; n++) {
       double change = 0.0;
       for (int u = 0; u < rows; u++) change -= j[u][n] * c[u];
@@ -134,7 +100,8 @@ static int close_at(loop *l) {
 /* 1: a joint of the closure's loop */
 static int is_in(const ambulo__tree *tree, const ambulo__closure *c, int link) {
   return tree->links[link].type != AMBULO_FIXED &&
-         is_above(tree, link, c->link[0]) != is_above(tree, link, c->link[1]);
+         ambulo__tree_hangs_on(tree, c->link[0], link) !=
+             ambulo__tree_hangs_on(tree, c->link[1], link);
 }
 
 static int share(const ambulo__tree *tree, const ambulo__closure *a, const ambulo__closure *b) {

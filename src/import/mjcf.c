@@ -231,18 +231,8 @@ static int couple(ambulo__mjcf *m, const ambulo__xml_node *n) {
 /* <equality><connect body1 body2 anchor>: the anchor, in the frame of body1, is a point of both
  * where all joints are at their references. */
 
-static ambulo__rigid reference_place(const ambulo__tree *tree, int link) {
-  ambulo__rigid place = ambulo__rigid_identity();
-  for (int i = link; i >= 0; i = tree->links[i].parent) {
-    const ambulo__tree_link *l = &tree->links[i];
-    ambulo__rigid step = ambulo__rigid_step(l->type == AMBULO_PRISMATIC, l->axis, l->reference);
-    if (l->type != AMBULO_FIXED) place = ambulo__rigid_times(&step, &place);
-    place = ambulo__rigid_times(&l->origin, &place);
-  }
-  return place;
-}
-
-static int read_closure(ambulo__mjcf *m, const ambulo__xml_node *n, ambulo__closure *c) {
+static int read_closure(ambulo__mjcf *m, const ambulo__xml_node *n, const double *references,
+                        ambulo__closure *c) {
   static const char *const names[] = {"body1", "body2"};
   double world[3];
   ambulo__rigid place[2];
@@ -251,7 +241,7 @@ static int read_closure(ambulo__mjcf *m, const ambulo__xml_node *n, ambulo__clos
     const char *body = ambulo__xml_attribute(n, names[i]);
     c->link[i] = body ? ambulo__tree_find(m->tree, body) : -1;
     if (c->link[i] < 0) return 0;
-    place[i] = reference_place(m->tree, c->link[i]);
+    place[i] = ambulo__tree_place_at(m->tree, c->link[i], references);
   }
   if (!ambulo__mjcf_numbers(m, n, NULL, "anchor", 3, 3, c->point[0])) return 0;
   c->node = n;
@@ -265,12 +255,16 @@ static int read_closure(ambulo__mjcf *m, const ambulo__xml_node *n, ambulo__clos
 static int couple_joints(ambulo__mjcf *m) {
   int count = 0, closed = 0, capacity = 0;
   ambulo__closure *closures = NULL;
+  size_t links = (size_t)m->tree->link_count;
+  double *references = ambulo__arena_take(m->tree->arena, links, sizeof *references);
+  if (!references) return 0;
+  for (size_t i = 0; i < links; i++) references[i] = m->tree->links[i].reference;
   AMBULO__XML_EACH (set, m->root, "equality") {
     for (const ambulo__xml_node *n = set->first; n; n = n->next) {
       if (!ambulo__arena_grow(m->tree->arena, &closures, closed, &capacity, sizeof *closures))
         return count;
       count += couple(m, n);
-      closed += read_closure(m, n, &closures[closed]);
+      closed += read_closure(m, n, references, &closures[closed]);
     }
   }
   for (int i = 0; i < m->tree->link_count && closed > 0; i++) {

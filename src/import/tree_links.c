@@ -26,6 +26,16 @@ static ambulo__rigid place_of(const ambulo__tree *tree, int link, int start, int
   return place;
 }
 
+ambulo__rigid ambulo__tree_place_at(const ambulo__tree *tree, int link, const double *values) {
+  ambulo__rigid place = ambulo__rigid_identity();
+  for (int i = link; i >= 0; i = tree->links[i].parent) {
+    const ambulo__tree_link *l = &tree->links[i];
+    ambulo__rigid own = in_parent(l, l->type == AMBULO_FIXED ? 0.0 : values[i]);
+    place = ambulo__rigid_times(&own, &place);
+  }
+  return place;
+}
+
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link) {
   return place_of(tree, link, 0, -1);
 }

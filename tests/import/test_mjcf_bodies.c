@@ -18,6 +18,26 @@ static void functions_as_mujoco(void **state) {
   import_shut(&c);
 }
 
+/* y = 3 x: armature and damping by nine, dry friction by three; on a curve they are left out */
+static void followers_pass_their_drives_on(void **state) {
+#define FOLLOWED(coefficients)                                                                     \
+  "<mujoco><worldbody><body name='a'><joint name='x' axis='0 0 1' armature='.01' damping='.1'/>"   \
+  "<geom size='.1'/><body name='b'><joint name='y' axis='0 0 1' armature='.2' damping='.3' "       \
+  "frictionloss='.5'/><geom size='.1'/></body></body></worldbody><equality>"                       \
+  "<joint joint1='y' joint2='x' polycoef='" coefficients "'/></equality></mujoco>"
+  import_case c = import_good(state, FOLLOWED("0 -3"));
+  const ambulo_coordinate *x = ambulo_model_coordinate(c.model, 0);
+  assert_int_equal(ambulo_model_coordinate_count(c.model), 1);
+  assert_close(x->armature, .01 + 9 * .2, 1e-12);
+  assert_close(x->damping, .1 + 9 * .3, 1e-12);
+  assert_close(x->friction, 3 * .5, 1e-12);
+  import_shut(&c);
+  c = import_good(state, FOLLOWED("0 1 .5"));
+  assert_close(ambulo_model_coordinate(c.model, 0)->armature, .01, 1e-12);
+  assert_told(&c, "armature, damping and friction of 1 joints that follow others on curves");
+  import_shut(&c);
+}
+
 static void as_mujoco(void **state) {
   (void)state;
   static const double want[] = {4.45988213124041,   -31.8283296199847,   312.697450895045,
@@ -286,6 +306,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(as_mujoco),
                                      cmocka_unit_test(drives),
                                      cmocka_unit_test(functions_as_mujoco),
+                                     cmocka_unit_test(followers_pass_their_drives_on),
                                      cmocka_unit_test(limits),
                                      cmocka_unit_test(what_is_driven),
                                      cmocka_unit_test(solids),
