@@ -207,6 +207,42 @@ static void gradients_of_points_are_exact(void **state) {
   ambulo_model_free(model);
 }
 
+/* rows at one motion, with the moments of contacts counted by an arm */
+static double *rows_with_arm(const ambulo_model *model, double arm, int *count) {
+  ambulo_problem_definition d = definition_of(model, both);
+  ambulo_problem *problem = NULL;
+  ambulo_workspace *workspace = NULL;
+  d.ground_reaction.moment_arm = arm;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &problem), AMBULO_OK);
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  int n = ambulo_problem_variable_count(problem);
+  *count = ambulo_problem_row_count(problem);
+  double *x = calloc((size_t)n, sizeof *x), *rows = calloc((size_t)*count, sizeof *rows);
+  for (int i = 0; i < n; i++) x[i] = 0.1 * sin(1.7 * i);
+  assert_int_equal(ambulo_problem_evaluate(problem, workspace, x, NULL, NULL, rows), AMBULO_OK);
+  free(x);
+  ambulo_workspace_free(workspace);
+  ambulo_problem_free(problem);
+  return rows;
+}
+
+/* no more than the region of a point, whatever the arm of soles; less is as it is given */
+static void points_turn_next_to_nothing(void **state) {
+  (void)state;
+  ambulo_model *model = on_points();
+  static const double arms[] = {0.2, 0.005, 0.001};
+  double *rows[3];
+  int count = 0, others = 0;
+  for (int i = 0; i < 3; i++) rows[i] = rows_with_arm(model, arms[i], &count);
+  for (int r = 0; r < count; r++) {
+    assert_close(rows[0][r], rows[1][r], 0.0);
+    others += rows[2][r] != rows[1][r];
+  }
+  assert_true(others > 0);
+  for (int i = 0; i < 3; i++) free(rows[i]);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_point_is_one_corner),
                                      cmocka_unit_test(half_a_point_is_refused),
@@ -215,6 +251,7 @@ int main(void) {
                                      cmocka_unit_test(one_point_speaks_of_moments),
                                      cmocka_unit_test(a_gait_puts_points_down_once),
                                      cmocka_unit_test(points_are_on_no_heel),
-                                     cmocka_unit_test(gradients_of_points_are_exact)};
+                                     cmocka_unit_test(gradients_of_points_are_exact),
+                                     cmocka_unit_test(points_turn_next_to_nothing)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

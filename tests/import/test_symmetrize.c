@@ -67,6 +67,19 @@ static void becomes_its_image(void **state) {
   import_shut(&c);
 }
 
+static void drives_become_alike(void **state) {
+  import_case c = made_even(state, BODY("0 0 .1", "", ".01 -.1 -.1", "1 0 0", "2",
+                                        "-1 .5' armature='.03' damping='.4' frictionloss='.2"));
+  assert_int_equal(c.status, AMBULO_OK);
+  for (int side = 0; side < 2; side++) {
+    const ambulo_coordinate *roll = named(&c, side ? "roll_r" : "roll_l");
+    assert_close(roll->armature, .015, 1e-12);
+    assert_close(roll->damping, .2, 1e-12);
+    assert_close(roll->friction, .1, 1e-12);
+  }
+  import_shut(&c);
+}
+
 /* the same in a world whose forward is another axis */
 static void any_axis(void **state) {
   ambulo_import_options o = ambulo_import_options_default();
@@ -149,8 +162,11 @@ static void joints_alone(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(becomes_its_image),  cmocka_unit_test(any_axis),
-      cmocka_unit_test(an_even_body_stays), cmocka_unit_test(means),
+      cmocka_unit_test(becomes_its_image),
+      cmocka_unit_test(drives_become_alike),
+      cmocka_unit_test(any_axis),
+      cmocka_unit_test(an_even_body_stays),
+      cmocka_unit_test(means),
       cmocka_unit_test(joints_alone),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
